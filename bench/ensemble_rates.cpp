@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/counter_random.h"
 #include "ensemble/balanced_splits.h"
 #include "ensemble/ensemble_columns.h"
 #include "ensemble/ensemble_file.h"
-#include "statistics/counter_random.h"
 #include "statistics/mesh_graph.h"
 #include "statistics/replicate_columns.h"
 #include "statistics/surface_test.h"

@@ -12,12 +12,12 @@
 #include <filesystem>
 #include <string>
 
+#include "base/counter_random.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
 #include "ensemble/states.h"
 #include "ensemble/template_values.h"
 #include "matrix/write_matrix.h"
-#include "statistics/counter_random.h"
 
 using namespace espdiff;
 

@@ -1,5 +1,6 @@
 // map_errors.cpp: how many errors planted into given maps the check of maps finds, and how many right maps it refuses;
 // the table of docs/study.md. Each map is checked as a comparison checks it, on the surface of its own molecule.
+// espdiff_map_errors [--limits] [PQR...]: the proteins below, and further ones, such as those of bench/planted_inputs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,6 +47,10 @@ const std::vector<std::string> kOthers = {kApbs + "bem/test_proteins/1a63.pqr",
                                           kApbs + "protein-rna/model_outNB.pqr",
                                           kApbs + "protein-rna/model_outBoxB19.pqr",
                                           kApbs + "bem-binding-energy/test_proteins/1d30_monomer1.pqr",
+                                          kApbs + "helix/Membrane-helix-0.pqr",
+                                          kApbs + "protein-rna/model_outNpep.pqr",
+                                          kApbs + "actin-dimer/mol1.pqr",
+                                          kApbs + "misc/mache.pqr",
                                           "map_apbs_fas2/fas2.pqr",
                                           "ref_apbs/1tca.pqr",
                                           "traj_adk/adk_open.pqr"};
@@ -55,10 +60,13 @@ struct Row {
   double least = 1, low = 1e9, high = -1e9;
 };
 
-/// The rows of a table, in the order in which they come.
+/// The rows of a table, in the order in which they come. Right maps that are refused and errors that are passed over
+/// are told on stderr.
 class Table {
  public:
-  void add(const std::string& kind, const std::vector<Warning>& warnings,
+  explicit Table(bool of_right_maps) : of_right_maps_(of_right_maps) {}
+
+  void add(const std::string& kind, const std::string& subject, const std::vector<Warning>& warnings,
            const std::shared_ptr<const MapCheck>& check) {
     if (rows_.count(kind) == 0) order_.push_back(kind);
     Row& row = rows_[kind];
@@ -66,6 +74,9 @@ class Table {
     const bool refuses = std::any_of(warnings.begin(), warnings.end(), [](const Warning& w) { return w.refuses; });
     row.refused += refuses ? 1 : 0;
     row.warned += !refuses && !warnings.empty() ? 1 : 0;
+    if (of_right_maps_ ? refuses : warnings.empty())
+      std::fprintf(stderr, "%s, %s: %s\n", kind.c_str(), subject.c_str(),
+                   refuses ? warnings.front().text.plain().c_str() : "nothing is said");
     if (!check) return;
     row.least = std::min(row.least, check->best().correlation);
     row.low = std::min(row.low, check->best().slope);
@@ -86,6 +97,7 @@ class Table {
   }
 
  private:
+  bool of_right_maps_;
   std::map<std::string, Row> rows_;
   std::vector<std::string> order_;
 };
@@ -144,7 +156,7 @@ Grid density(Grid map, const Molecule& m) {
 void check(Table& table, const std::string& kind, const Subject& subject, const Grid& map) {
   std::shared_ptr<const MapCheck> outcome;
   const std::vector<Warning> warnings = map_warnings("source", map, *subject.references, kTemperature_K, outcome);
-  table.add(kind, warnings, outcome);
+  table.add(kind, subject.name, warnings, outcome);
 }
 
 Subject make_subject(Engine& engine, const std::string& path) {
@@ -234,7 +246,9 @@ int main(int argc, char** argv) {
   const bool of_limits = argc > 1 && std::strcmp(argv[1], "--limits") == 0;
   const std::unique_ptr<Engine> engine = select_engine(DeviceChoice::kCpu, 0);
   std::vector<Subject> subjects;
-  for (const std::string& path : of_limits ? kLimits : kOthers) {
+  std::vector<std::string> paths = of_limits ? kLimits : kOthers;
+  paths.insert(paths.end(), argv + (of_limits ? 2 : std::min(argc, 1)), argv + argc);
+  for (const std::string& path : paths) {
     const std::string whole = path[0] == '/' ? path : folder + "/" + path;
     if (!std::filesystem::exists(whole)) {
       std::fprintf(stderr, "map_errors: %s is absent\n", whole.c_str());
@@ -244,7 +258,7 @@ int main(int argc, char** argv) {
   }
   double seconds = 0;
   for (Subject& s : subjects) add_references(*engine, s, seconds);
-  Table right, wrong;
+  Table right(true), wrong(false);
   for (const Subject& s : subjects) right_maps(*engine, s, right);
   for (std::size_t i = 0; i < subjects.size(); ++i) planted(subjects[i], subjects[(i + 1) % subjects.size()], wrong);
   right.print("right maps");

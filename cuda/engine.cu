@@ -318,9 +318,11 @@ class BackEndEngine : public Engine {
 
   std::vector<std::vector<double>> contributions(const GridPtr& map, const MeshPtr& mesh,
                                                  const std::vector<std::vector<double>>& weights,
+                                                 const std::vector<ProbeCharge>& probes,
                                                  const Progress& progress) override {
     return run([&] {
-      return ESPDIFF_BACKEND::contributions(unwrap<MapGrid>(map), unwrap<SurfaceMesh>(mesh), weights, pme_, progress);
+      return ESPDIFF_BACKEND::contributions(unwrap<MapGrid>(map), unwrap<SurfaceMesh>(mesh), weights, probes, pme_,
+                                            progress);
     });
   }
 

@@ -1,18 +1,10 @@
 // report.js: the page of a comparison: surface, residues, numbers. Reads the record and the arrays in the page.
 'use strict';
 (async function () {
-  const byId = (id) => document.getElementById(id);
-  const record = JSON.parse(byId('record').textContent);
-  const add = (parent, tag, text, className) => {
-    const element = parent.appendChild(document.createElement(tag));
-    if (text !== undefined) element.textContent = text;
-    if (className) element.className = className;
-    return element;
-  };
-  const shown = (value) => (value === null || !isFinite(value) ? '-' : Number(value.toPrecision(4)).toString());
+  const { byId, record, add, shown, decode } = Page;
 
   showTexts();
-  const arrays = await unpack();
+  const arrays = await Page.unpack();
   const n = record.n_vertices;
   const target = decode(record.positions.target), source = decode(record.positions.source);
   const triangles = decodeTriangles(), residueOf = new Int32Array(arrays, record.residue.offset, n);
@@ -22,20 +14,7 @@
   // ---- texts ----------------------------------------------------------------------------------------------------
 
   function showTexts() {
-    document.title = record.title + ' - espdiff';
-    byId('title').textContent = record.title;
-    byId('states').textContent = 'Source: ' + record.source + '. Target: ' + record.target + '. Differences are target - source.';
-    const verdict = byId('verdict');
-    verdict.classList.toggle('refused', !record.verdict.trustworthy);
-    add(verdict, 'strong', record.verdict.text);
-    const parts = record.verdict.trustworthy && record.verdict.text !== 'TRUSTWORTHY' ? record.verdict.parts : [];
-    for (const list of [record.verdict.reasons, parts, record.warnings]) {
-      if (!list.length) continue;
-      if (list === parts) add(verdict, 'p', 'Not trusted');
-      if (list === record.warnings) add(verdict, 'p', 'Warnings');
-      const items = add(verdict, 'ul');
-      for (const text of list) add(items, 'li', text);
-    }
+    Page.showHead('Source: ' + record.source + '. Target: ' + record.target + '. Differences are target - source.');
     for (const section of record.numbers) {
       const box = add(byId('numbers'), 'div');
       add(box, 'h2', section.title);
@@ -47,34 +26,10 @@
         add(line, 'td', row.value);
       }
     }
-    const box = byId('provenance');
-    add(box, 'h2', 'How it was made');
-    const table = add(box, 'table');
-    for (const [name, text] of record.provenance) {
-      const line = add(table, 'tr');
-      add(line, 'td', name);
-      add(line, 'td', text);
-    }
+    Page.showProvenance();
   }
 
   // ---- arrays ---------------------------------------------------------------------------------------------------
-
-  async function unpack() {
-    const text = atob(byId('arrays').textContent.trim());
-    const bytes = new Uint8Array(text.length);
-    for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-    if (!record.deflated) return bytes.buffer;
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
-    return new Response(stream).arrayBuffer();
-  }
-
-  // 16-bit steps between minimum and maximum; the last step stands for no value.
-  function decode(column) {
-    const steps = new Uint16Array(arrays, column.offset, column.n);
-    const out = new Float32Array(column.n), width = (column.max - column.min) / 65534;
-    for (let i = 0; i < column.n; ++i) out[i] = steps[i] === 65535 ? NaN : column.min + steps[i] * width;
-    return out;
-  }
 
   // Each corner as its difference from the one before.
   function decodeTriangles() {
@@ -316,10 +271,6 @@
   byId('column').onchange = () => { column = -2; sortBy(Number(byId('column').value)); };
   byId('filter').oninput = fillTable;
   byId('home').onclick = wholeView;
-  byId('theme').onclick = () => {
-    const dark = getComputedStyle(document.body).backgroundColor === 'rgb(255, 255, 255)';
-    document.documentElement.dataset.theme = dark ? 'dark' : 'light';
-  };
   byId('save').onclick = () => {
     draw();
     const link = document.createElement('a');

@@ -5,10 +5,13 @@
 
 // Constants of the program, #defined above this file, because software renderers pay for every branch.
 const bool perFragment = PER_FRAGMENT;  // otherwise interpolated between the vertices' values (no maps)
-const int part = PART;                  // 0 trusted, 1 corrupt, 2 unmatched
+const int part = PART;                  // 0 matched, 1 unmatched
 const int colourBy = COLOUR_BY;         // the numbers of RenderArray
 const bool fades = FADES;
 const bool split = SPLIT;
+const bool cuts = CUTS;          // along smooth borders of unmatched parts
+const bool marks = MARKS;        // grey where the place on the target is not trusted
+const bool outlines = OUTLINES;  // residues, by a dark line
 
 in vec3 positionVC;
 in vec3 normalVC;
@@ -19,6 +22,9 @@ in float displacementFS;
 in float slipFS;
 in float uncertaintyFS;
 flat in float residueIndexFS;
+in vec3 bordersFS;
+in vec3 startFS;                // on the source, and where it is drawn
+in vec3 placeFS;
 
 uniform sampler3D sourceMap;
 uniform sampler3D targetMap;
@@ -60,7 +66,7 @@ vec3 surfaceColour()
 
 float opacityHere()
 {
-  if (part == 1) return 0.3;
+  if (part == 1) return 1.0;
   if (!fades) return fade.w;
   if (uncertaintyFS < 0.0) return fade.z;
   return mix(fade.w, fade.z, clamp((uncertaintyFS - fade.x) / (fade.y - fade.x), 0.0, 1.0));
@@ -72,13 +78,35 @@ bool onStripe()
   return mod(gl_FragCoord.x - gl_FragCoord.y, hatchPitch) < 0.4 * hatchPitch;
 }
 
+/// Whether this is on a line of constant width in the picture.
+bool onLine(float share, float pixels)
+{
+  return abs(share - 0.5) < 0.5 * pixels * fwidth(share);
+}
+
+/// Whether an unmatched triangle is drawn much larger than it is on the source: it spans a tear, where no surface is.
+bool spansTear()
+{
+  float drawn = length(cross(dFdx(placeFS), dFdy(placeFS)));
+  float source = length(cross(dFdx(startFS), dFdy(startFS)));
+  return drawn > 3.0 * source;  // areas
+}
+
 void main()
 {
   //VTK::Depth::Impl
   //VTK::DepthPeeling::PreColor
   if (split && (gl_FragCoord.x < shownColumns.x || gl_FragCoord.x >= shownColumns.y)) discard;
-  vec3 colour = part == 1 ? noValueColour : part == 2 ? (onStripe() ? noValueColour : vec3(0.93)) : surfaceColour();
+  bool atBorder = cuts && onLine(bordersFS.x, 0.2 * hatchPitch);
+  bool atOutline = outlines && onLine(bordersFS.y, 0.4 * hatchPitch);
+  if (cuts && part == 0 && bordersFS.x < 0.5) discard;
+  if (cuts && part == 1 && (bordersFS.x >= 0.5 || spansTear())) discard;
+  vec3 colour = part == 1                         ? (onStripe() ? noValueColour : vec3(0.93))
+                : marks && bordersFS.z < 0.5 ? noValueColour
+                                             : surfaceColour();
+  if (atBorder) colour = vec3(0.25);
+  if (atOutline) colour = vec3(0.05);
   if (colourBy == kReadBack) gl_FragData[0] = vec4(colour, 1.0);
-  else gl_FragData[0] = vec4(blinnPhong(colour, normalize(normalVC), positionVC), opacityHere());
+  else gl_FragData[0] = vec4(blinnPhong(colour, normalize(normalVC), positionVC), atBorder || atOutline ? 1.0 : opacityHere());
   //VTK::DepthPeeling::Impl
 }

@@ -10,6 +10,7 @@ in float displacement;       // Angstrom; negative: unknown
 in float slip;               // Angstrom; negative: unknown
 in float uncertainty;        // Angstrom, smoothed; negative: unknown
 in float residueIndex;       // negative: none
+in vec3 borders;             // shares of matched, outlined, trusted surroundings; borders lie at 0.5
 
 uniform mat4 MCDCMatrix;     // names that VTK's mapper sets
 uniform mat4 MCVCMatrix;
@@ -25,6 +26,9 @@ out float displacementFS;
 out float slipFS;
 out float uncertaintyFS;
 flat out float residueIndexFS;
+out vec3 bordersFS;
+out vec3 startFS;
+out vec3 placeFS;
 
 void main()
 {
@@ -39,4 +43,7 @@ void main()
   slipFS = slip;
   uncertaintyFS = uncertainty;
   residueIndexFS = residueIndex;
+  bordersFS = borders;
+  startFS = startMC;
+  placeFS = placeMC.xyz;
 }

@@ -41,6 +41,21 @@ namespace eval ::espdiff {
             [dict get $residue ${prefix}insertion]
     }
 
+    # "A:TRP90", "A:TRP90->SER" where it is mutated, "A:TRP90->TRP91" where its partner has another number.
+    proc residue_name {row} {
+        set name "[dict get $row name][dict get $row number][dict get $row insertion]"
+        if {[dict get $row chain] ni {"" X " "}} { set name "[dict get $row chain]:$name" }
+        set other [dict get $row target_name]
+        if {$other eq ""} { return $name }
+        set number "[dict get $row target_number][dict get $row target_insertion]"
+        if {$number ne "[dict get $row number][dict get $row insertion]"} {
+            append name "->$other$number"
+        } elseif {$other ne [dict get $row name]} {
+            append name "->$other"
+        }
+        return $name
+    }
+
     # Whose residues a molecule has: target, source, or both of them; those of the source for a molecule that was not
     # compared.
     proc sides_of {handle mol} {

@@ -74,8 +74,9 @@ namespace eval ::espdiff {
 
     command atoms [dict create arguments {handle} settings none run ::espdiff::atoms options [concat \
         [list [list -quantity choice auto "Value for the atoms of a residue; auto is mean_abs_difference, or without\
-            potentials mean_displacement_A; share: its part of the sum of |difference| times area over all residues"\
-            [concat auto share [metric_names residues]]]] {
+            potentials mean_displacement_A; share: its part of the sum of |difference| times area over all residues;\
+            contribution: what it adds to the first reading of -causes"\
+            [concat auto share contribution [metric_names residues]]]] {
             {-mol text source "Molecule of VMD that gets the values: source, target, or an id"}
             {-field choice user "VMD's field: user to user4 hold one frame, the others all frames" {user
                 user2 user3 user4 beta occupancy}}
@@ -141,7 +142,7 @@ namespace eval ::espdiff {
             the difference of the groups (-color also source, target: means of the groups, and t), faded where it is
             not significant. Parts meet in smooth lines;
             parts without a counterpart are grey and hatched. View, top molecule and colour settings do not change. A
-            drawing is several graphics molecules of one name, which are shown, hidden and deleted together.} \
+            drawing is up to four graphics molecules, which are shown, hidden and deleted together.} \
         returns {the graphics molecules' ids} example {espdiff draw comparison1 -color difference -range {-5 5}}]
 
     command view [dict create arguments {input} settings none run ::espdiff::view options {
@@ -164,7 +165,7 @@ namespace eval ::espdiff {
         } \
         summary {Draws a comparison for print, as VMD shows it: VMD's camera, and the colours, range, fading and legend of the
             handle's drawing. It is drawn by espdiff's own renderer, which looks both maps up at every pixel, in a
-            parallel projection. (VMD's ray tracers draw the legend's letters in another size.)} \
+            parallel projection.} \
         returns {the file} example {espdiff figure comparison1 figure1.png -width 2400}]
 
     command undraw [dict create arguments {{?handle ...?}} options {} settings none run ::espdiff::undraw \
@@ -179,8 +180,8 @@ namespace eval ::espdiff {
             {-reference text {frame 0} "What each frame is compared with: {frame N}, previous (the frame before it in\
                 the run), an endpoint, or an endpoint with `frame same`: frame i with frame i of another trajectory,\
                 such as {mol 1 frame same}"}
-            {-map text auto "Potential of each frame; auto computes the usual one, none compares shapes alone; see\
-                Trajectories"}
+            {-map text auto "Potential of each frame; auto computes the usual one, none compares shapes alone,\
+                {pme average N} is the mean of PME over N frames around it; see Trajectories"}
             {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame, or\
                 computed as the frames' are"}
             {-unit text {} "Unit of the maps if they do not say: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"}

@@ -7,12 +7,12 @@ namespace eval ::espdiff {
     variable drawn_plans [dict create]  ;# by handle: the plan of a drawing that has a legend
 
     # How far the colours have faded in bands of uncertainty, from half the limit to the limit. VMD has one colour scale
-    # at a time, so that each band is a graphics molecule.
-    variable fadings {0.25 0.5 0.75}
+    # at a time, so that each band is a graphics molecule: as few as still look like fading.
+    variable fadings {0.33 0.67}
     # Opacity of these bands and of what is beyond the limit, with -uncertain transparent. With GLSL VMD blends triangles
     # of opacity 0.5 or less in list order, without writing depths, and draws the others as if opaque.
-    variable opacities {0.5 0.4 0.3 0.2}
-    variable neutral_grey {0.45 0.45 0.45}  ;# darker than the middle of any scale, which means 0
+    variable opacities {0.5 0.35 0.2}
+    variable neutral_grey {0.35 0.35 0.35}  ;# darker than the middle of any scale, which means 0
 
     # Three colours for the lower end, the middle and the upper end of VMD's colour scale. VMD's lights darken surfaces:
     # these are stronger than the same names in pictures of the command line; the other names are as there.
@@ -23,8 +23,8 @@ namespace eval ::espdiff {
     variable lengths {slip displacement path_length}  ;# quantities that start at 0
     variable scale_method RWB  ;# VMD's colour scale whose colours are replaced temporarily
 
-    variable scale_first 33   ;# the first id of VMD's colour scale
-    variable plain_color 2    ;# gray: no quantity, and points outside a map
+    variable plain_color 2    ;# gray, neutral_grey as a number: no quantity, points outside a map, what is uncertain
+    variable stripe_color 8   ;# white: light stripes of what has no counterpart
     variable marked_color 4   ;# yellow: parts that are not trusted, with -corrupt mark
     variable said_rendermode 0  ;# whether the user was told that transparency needs GLSL
 
@@ -40,6 +40,7 @@ namespace eval ::espdiff {
         end_linked_view
         set plan [drawing_plan $options $handle]
         set older [drawing_of $handle]
+        forget_picked
         set molecules {}
         keep_view {
             set code [catch {
@@ -184,58 +185,51 @@ namespace eval ::espdiff {
         return [dict create low [expr {$color in $lengths ? 0 : -$high}] high $high unit $unit]
     }
 
-    # The parts of a drawing, opaque ones first, because VMD draws in this order: name, how far its colours have faded (1:
-    # grey), opacity, the core's options. Grey parts include what has no counterpart, hatched.
+    # The parts of a drawing, a graphics molecule each, opaque ones first, because VMD draws in this order: name, how far its
+    # colours have faded, opacity, and what it draws: options of the core, several times. Grey and stripes have
+    # colours by number, which no scale changes, and so need no part of their own.
     proc drawn_parts {options is_surface} {
         variable fadings
         variable opacities
+        variable plain_color
+        variable stripe_color
         set style [dict get $options uncertain]
-        if {$is_surface} { return {{"" 0 1.0 {}}} }
-        set grey [list "uncertain" 1 1.0 {from 1 hatches 1}]
-        if {$style eq "plain"} { return [list {"" 0 1.0 {to 1}} $grey] }
+        if {$is_surface} { return {{"" 0 1.0 {{}}}} }
+        set grey [dict create color none plain $plain_color light $stripe_color hatches 1]
+        set uncertain [dict merge $grey {from 1}]
+        if {$style eq "plain"} { return [list [list "" 0 1.0 [list {to 1} $uncertain]]] }
         set n [llength $fadings]
-        set parts [list [list "" 0 1.0 {to 0.5}]]
         set between {}
         for {set i 0} {$i < $n} {incr i} {
             set band [list from [expr {0.5 + 0.5 * $i / $n}] to [expr {0.5 + 0.5 * ($i + 1) / $n}]]
             set share [lindex $fadings $i]
             if {$style eq "fade"} {
-                lappend between [list "faded [expr {round(100 * $share)}] %" $share 1.0 $band]
+                lappend between [list "faded [expr {round(100 * $share)}] %" $share 1.0 [list $band]]
             } else {
                 set opacity [lindex $opacities $i]
-                lappend between [list "opacity $opacity" 0 $opacity $band]
+                lappend between [list "opacity $opacity" 0 $opacity [list $band]]
             }
         }
-        if {$style eq "fade"} { return [concat $parts $between [list $grey]] }
+        if {$style eq "fade"} { return [linsert $between 0 [list "" 0 1.0 [list {to 0.5} $uncertain]]] }
         set least [lindex $opacities end]
-        return [concat $parts [list {"no counterpart" 1 1.0 {from 1e8 hatches 1}}] $between \
-            [list [list "opacity $least" 0 $least {from 1}]]]
+        return [concat [list [list "" 0 1.0 [list {to 0.5} [dict merge $grey {from 1e8}]]]] $between \
+            [list [list "opacity $least" 0 $least [list {from 1}]]]]
     }
 
     # One graphics molecule for each part that has triangles; their ids are appended to the caller's list as they are
     # made.
     proc draw_parts {handle plan molecules_name} {
         upvar 1 $molecules_name molecules
-        variable scale_first
-        variable neutral_grey
         foreach part [dict get $plan parts] {
-            lassign $part what faded opacity band
+            lassign $part what faded opacity bands
             set name [graphics_name $handle [expr {$what eq "" ? [dict get $plan color] : $what}]]
             lappend molecules [set mol [new_graphics $name [dict get $plan beside]]]
             graphics $mol material [material_of $opacity]
-            set core [dict merge [dict get $plan core] $band]
-            if {$faded == 1} { dict set core color none; dict set core plain $scale_first }
             set n 0
             with_color_scale [faded_colors [dict get $plan colors] $faded] {
-                set n [core::triangles $handle $mol $core]
+                foreach band $bands { incr n [draw_band $handle $mol [dict merge [dict get $plan core] $band]] }
+                if {$what eq ""} { add_pick_points $handle $mol [dict get $plan core surface] }
                 build_list $mol
-            }
-            if {[dict exists $band hatches] && [dict get $core surface] eq "mapped"} {
-                with_color_scale [faded_colors {} 1] {
-                    # Its stripes only: the rest is covered by the mapped surface.
-                    incr n [core::triangles $handle $mol [dict merge $core {surface uncovered limit 0 from 1e8}]]
-                    build_list $mol
-                }
             }
             if {$n == 0 && $what ne ""} {
                 mol delete $mol
@@ -244,10 +238,16 @@ namespace eval ::espdiff {
         }
     }
 
-    # A scale's colours mixed with grey. Those of grey itself: dark and light stripes at its ends.
+    # Of the target's surface that nothing was mapped to only the stripes: the rest is covered by the mapped surface.
+    proc draw_band {handle mol core} {
+        set n [core::triangles $handle $mol $core]
+        if {![dict exists $core hatches] || [dict get $core surface] ne "mapped"} { return $n }
+        expr {$n + [core::triangles $handle $mol [dict merge $core {surface uncovered limit 0 from 1e8}]]}
+    }
+
+    # A scale's colours mixed with grey.
     proc faded_colors {colors faded} {
         variable neutral_grey
-        if {$faded == 1} { return [list $neutral_grey $neutral_grey {0.90 0.90 0.90}] }
         set mixed {}
         foreach color $colors {
             set entries {}
@@ -340,6 +340,7 @@ namespace eval ::espdiff {
         variable drawn_plans
         if {![dict exists $drawings $handle]} return
         set scene [leave_linked_view $handle]
+        if {[in_vmd]} { forget_pick_points $handle }
         if {[in_vmd]} { keep_view { delete_molecules [drawing_of $handle] }; restore_scene $scene; place_legends }
         dict unset drawings $handle
         dict unset drawn_plans $handle

@@ -36,7 +36,7 @@ namespace eval ::espdiff {
 ::espdiff::load_module
 foreach ::espdiff::part {
     files options metrics commands manual jobs endpoint vmd_molecule vmd_view vmd_volume compute potential
-    ensemble ensemble_frames draw figure drawing_watch script_words saved_state linked_view highlight legend matrix atoms atom_colors plot plot_file frame_maps trajectory trajectory_steps view
+    ensemble ensemble_frames draw figure drawing_watch script_words saved_state linked_view highlight letters legend picked matrix atoms atom_colors plot plot_file averaged_map frame_maps trajectory trajectory_steps view
     doctor
 } {
     source [file join $::espdiff::directory $::espdiff::part.tcl]

@@ -6,9 +6,7 @@ namespace eval ::espdiff {
     variable figure_quantities {difference source target sign slip displacement}
 
     proc figure {options handle path} {
-        # Shares of a picture's height that `espdiff render` keeps for them.
-    variable figure_margins {legend 0.19 title 0.09}  ;# as scene_legend.cpp has them
-    variable figure_quantities
+        variable figure_quantities
         require_vmd "espdiff figure" "outside of it the command line's `espdiff render` draws an exported comparison"
         require_core_handle $handle
         if {[dict get [core::status $handle] kind] ne "comparison"} {

@@ -5,7 +5,6 @@ namespace eval ::espdiff {
     # bar is at the bottom centre. VMD's view has the same height in any window, so only a window narrower than high
     # would crop it; there all of it is made narrower.
     variable legend_layout {half_width 0.62 bottom -0.845 top -0.805 ticks -0.905 title -0.775 key -0.965}
-    variable letter_width 0.0275  ;# average width of VMD's letters at size 1, in the same units
     variable legend_titles {
         difference "Potential difference, target - source" source "Potential of the source"
         target "Potential of the target" potential "Potential" displacement "Displacement"
@@ -21,7 +20,6 @@ namespace eval ::espdiff {
     # width. Returns the molecule's id; its list is not built yet.
     proc draw_legend {plan {middle 0} {room 1}} {
         variable legend_layout
-        variable letter_width
         set mol [new_legend [dict get $plan handle] [graphics_name [dict get $plan handle] legend] $middle]
         set layout $legend_layout
         dict with layout {
@@ -31,16 +29,13 @@ namespace eval ::espdiff {
             draw_bar $mol $half_width $bottom $top [value_or $plan first 33]
             graphics $mol color [legend_text_color]
             draw_ticks $mol $positions $bottom
-            # Texts last: VMD's PostScript renderer frees a text again with each shape after it.
             set text [legend_title $plan]
-            set size [expr {min(1.0, 2 * $room / ($letter_width * [string length $text] + 0.1))}]
-            draw_text $mol $text 0 $title [expr {0.95 * $size}]
+            draw_text $mol $text 0 $title [expr {0.95 * [text_size_within $text 1.0 $room]}]
             set size [expr {0.85 * max(0.65, min(1.0, 1.6 * $room))}]
             foreach {x label} $positions { draw_text $mol $label $x $ticks $size }
             set text [value_or $plan key ""]
             if {$text ne ""} {
-                set size [expr {min(0.75, 2 * $room / ($letter_width * [string length $text] + 0.1))}]
-                draw_text $mol $text 0 $key $size
+                draw_text $mol $text 0 $key [text_size_within $text 0.75 $room]
             }
         }
         return $mol
@@ -57,10 +52,9 @@ namespace eval ::espdiff {
 
     # The size at which all titles fit into a third of the window's width.
     proc panel_title_size {titles} {
-        variable letter_width
         set most 0
-        foreach title $titles { set most [expr {max($most, [string length $title])}] }
-        expr {min(1.0, [lindex [legend_screen] 2] * 2 / 3.0 / ($letter_width * $most + 0.05))}
+        foreach title $titles { set most [expr {max($most, [text_width $title])}] }
+        expr {min(1.0, [lindex [legend_screen] 2] * 2 / 3.0 / ($most + 0.05))}
     }
 
     # A graphics molecule that is fixed on the screen by place_legends.
@@ -105,9 +99,9 @@ namespace eval ::espdiff {
         variable legends
         set rows {}
         dict for {mol place} $legends {
-            if {$mol ni [molinfo list]} { dict unset legends $mol; continue }
+            if {$mol ni [molinfo list]} { dict unset legends $mol; dict unset ::espdiff::drawn_texts $mol; continue }
             lassign $place handle middle
-            if {[regexp { (title|note)$} [molinfo $mol get name]]} { place_legend $mol $middle 0; continue }
+            if {[regexp { (title|note)$} [lindex [molinfo $mol get name] 0]]} { place_legend $mol $middle 0; continue }
             if {$handle ni $rows} { lappend rows $handle }
             place_legend $mol $middle [lsearch -exact $rows $handle]
         }
@@ -199,11 +193,10 @@ namespace eval ::espdiff {
         return $labels
     }
 
-    # A text centred about x.
-    proc draw_text {mol text x y size} {
-        variable letter_width
-        set left [expr {$x - 0.5 * $letter_width * $size * [string length $text]}]
-        graphics $mol text [list $left $y 0] $text size $size thickness 2
+    # The size at which a text fits into the window, or into half the width `room`; at most `size`.
+    proc text_size_within {text size {room ""}} {
+        if {$room eq ""} { set room [lindex [legend_screen] 2] }
+        expr {min($size, 2 * $room / ([text_width $text] + 0.1))}
     }
 
     proc legend_title {plan} {

@@ -31,6 +31,7 @@ namespace eval ::espdiff {
     # Title, unit, and the factor of values in it, of a column; the potentials are in `potential_unit`.
     proc shown_metric {column potential_unit} {
         if {$column eq "share"} { return {"Share of |difference| times area" "" 1} }
+        if {$column eq "contribution"} { return [list "Contribution to the difference" $potential_unit 1] }
         set metric [metric_of_column $column]
         if {$metric eq ""} { return [list $column "" 1] }
         set unit [dict get $metric unit]

@@ -58,6 +58,10 @@ namespace eval ::espdiff {
         prepare_frames run $options
         usual_run_maps run
         check_frame_maps run
+        foreach map [list $run(map) $run(reference_map)] {
+            check_average $map $run(mol) [expr {$run(mol) eq "" ? 0 : [molinfo $run(mol) get numframes]}] \
+                [dict get $options settings]
+        }
         if {$run(against) eq "same"} { source_map run }
         set plan [trajectory_plan run $options]
         dict set plan inputs [named_files [list mol $run(mol) map $run(map)] $run(reference) $run(reference_map)]
@@ -257,7 +261,8 @@ namespace eval ::espdiff {
         set from $run(endpoint)
         if {$run(unit) ne ""} { dict set from unit $run(unit) }
         if {$run(mol) ne ""} { dict set from frame $frame }
-        dict set endpoint map [make_map $map $from $role temporary]
+        dict set endpoint map [expr {[frames_in_mean $map] > 1 ? [averaged_map $run(mol) $map $frame $role]
+            : [make_map $map $from $role temporary]}]
         return $endpoint
     }
 }

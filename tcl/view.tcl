@@ -21,7 +21,7 @@ namespace eval ::espdiff {
         if {![string is list [dict get $options arguments]]} { fail "-arguments: not a list" }
         set prefix [dict get $options output]
         set log [temporary_file .log]
-        set folder [core::private_folder [file join [temporary_place] espdiff-[pid]-view-]]
+        set folder [temporary_folder]
         if {[catch {
             if {[string match *.vtp $input]} {
                 set surface [existing_file $input "espdiff view"]
@@ -56,6 +56,9 @@ namespace eval ::espdiff {
         if {[file exists $log]} { after 1000 [list ::espdiff::watch_viewer $process $log] }
         return $process
     }
+
+    # A new folder that only the user can enter.
+    proc temporary_folder {} { core::private_folder [file join [temporary_place] espdiff-[pid]-view-] }
 
     proc export_for_viewer {folder handle} {
         require_core_handle $handle

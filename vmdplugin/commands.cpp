@@ -54,7 +54,7 @@ std::vector<Command> all_commands() {
   std::vector<Command> all;
   for (const auto& group : {compute_commands(), result_commands(), array_commands(), matrix_commands(),
                             ensemble_commands(), potential_commands(), trajectory_commands(), drawing_commands(),
-                            plot_commands(), program_commands(), about_commands()})
+                            pick_commands(), plot_commands(), program_commands(), about_commands()})
     all.insert(all.end(), group.begin(), group.end());
   return all;
 }

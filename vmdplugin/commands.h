@@ -50,6 +50,8 @@ std::vector<Command> potential_commands();
 std::vector<Command> trajectory_commands();
 /// drawing_commands.cpp: what came out, as maps and triangles for VMD.
 std::vector<Command> drawing_commands();
+/// pick_commands.cpp: what a click on a drawn surface hits.
+std::vector<Command> pick_commands();
 /// plot_commands.cpp: plots as files.
 std::vector<Command> plot_commands();
 /// program_commands.cpp: other programs, beside this one.

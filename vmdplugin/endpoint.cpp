@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "averaged_endpoint.h"
 #include "base/error.h"
 #include "base/vector.h"
 #include "compare/options.h"
@@ -182,6 +183,7 @@ void parse_map(Tcl_Obj* description, DictReader& endpoint_reader, Endpoint& endp
   endpoint.map_unit = reader.text("unit");
   if (Tcl_Obj* const memory = reader.find("memory")) {
     const std::string name = to_string(memory), label = reader.text("name", name);
+    if (reader.find("mean_over") != nullptr) return take_averaged_map(reader, name, endpoint);
     reader.finish();
     endpoint.map = take_volume(name);
     if (!endpoint.map) throw InputError(endpoint.role + " map: no volume named '" + name + "' is in memory");
@@ -349,7 +351,7 @@ void load(Endpoint& endpoint, const CompareOptions& options, const Endpoint* sou
     refuse_options_of_files(options.input, role_of(endpoint),
                             "the " + endpoint.role + " is a molecule of VMD; choose its atoms by `sel`");
   }
-  if (endpoint.map || endpoint.computed_map) return;
+  if (endpoint.map || endpoint.computed_map || endpoint.averaged_map) return;
   if (endpoint.map_request) {
     endpoint.computed_map = requested_map(endpoint, temperature_K);
     endpoint.inputs.push_back(computed_input(endpoint.role + "_map", *endpoint.computed_map));
@@ -371,7 +373,7 @@ void add_parts(Endpoint& endpoint, SurfaceParts parts) {
 
 CompareInput input_of(const Endpoint& endpoint) {
   return {&*endpoint.molecule, endpoint.map ? &*endpoint.map : nullptr,
-          endpoint.computed_map ? endpoint.computed_map->maker() : MapMaker(), endpoint.parts};
+          endpoint.computed_map ? endpoint.computed_map->maker() : endpoint.averaged_map, endpoint.parts};
 }
 
 }  // namespace espdiff::vmdplugin

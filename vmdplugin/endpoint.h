@@ -50,6 +50,7 @@ struct Endpoint {
   std::optional<MapRequest> map_request;
   std::optional<Everything> everything;     ///< if wants_everything()
   std::optional<ComputedMap> computed_map;  ///< of the request
+  MapMaker averaged_map;                    ///< the mean over frames that was computed before
   std::vector<InputFile> inputs;            ///< provenance; roles begin with the endpoint's ("source", "source_map")
   std::string role;
   LoadedState state;   ///< what load() did; its molecules but `whole` are moved out
@@ -62,6 +63,7 @@ struct Endpoint {
 ///   ?region LIST? ?map MAP?
 /// with the region's atoms as indices into the coordinates, MAP: file PATH ?array NAME? ?unit U?, or memory NAME ?unit
 /// U?, or
+///   memory NAME mean_over N charges LIST cell LIST ?KEY VALUE ...?: a mean of PME over N frames, in kT/e, or
 ///   kind pme|pb|coulomb ?charges LIST? ?radii LIST? ?water B? ?box CELL? ?because TEXT? ?KEY VALUE ...?, the keys
 ///   those of potential_settings()
 /// A volume in memory is removed from the store. `charges` are those of all atoms in the coordinates, 0 for unselected

@@ -186,13 +186,15 @@ std::size_t draw_with(Tcl_Interp* interp, int mol, const TriangleSoup& soup, con
   return n_drawn;
 }
 
+constexpr const char* kNoGraphics = "there is no command 'graphics', by which VMD draws; run this inside VMD";
+
 }  // namespace
 
 std::size_t draw_triangles(Tcl_Interp* interp, int mol, const TriangleSoup& soup) {
   check_soup(soup);
   Tcl_CmdInfo command;
   if (Tcl_GetCommandInfo(interp, "::graphics", &command) == 0) {
-    throw InputError("there is no command 'graphics', by which VMD draws; run this inside VMD");
+    throw InputError(kNoGraphics);
   }
   // Calls the command's procedure directly: looking it up for each triangle would take longer.
   constexpr int kCount = static_cast<int>(kNumArguments);
@@ -204,6 +206,23 @@ std::size_t draw_triangles(Tcl_Interp* interp, int mol, const TriangleSoup& soup
   return draw_with<TextArguments>(interp, mol, soup, [&](const char** arguments) {
     return command.proc(command.clientData, interp, kCount, arguments);
   });
+}
+
+void add_pick_points(Tcl_Interp* interp, int mol, const std::vector<Vec3f>& positions) {
+  for (std::size_t i = 0; i < positions.size(); ++i) check_vector(positions[i], "position", i);
+  Tcl_CmdInfo command;
+  if (Tcl_GetCommandInfo(interp, "::graphics", &command) == 0) throw InputError(kNoGraphics);
+  const std::string molecule = std::to_string(mol);
+  VectorText place{};
+  std::array<const char*, 4> arguments{"graphics", molecule.c_str(), "pickpoint", place.data()};
+  constexpr int kCount = static_cast<int>(arguments.size());
+  for (const Vec3f position : positions) {
+    write_vector(place, position, 3);
+    // The interpreter has a `proc` for commands of both kinds; that of objects makes objects of the texts.
+    if (command.proc(command.clientData, interp, kCount, arguments.data()) != TCL_OK)
+      throw InputError("VMD refused a pick point in molecule " + molecule + ": " + Tcl_GetStringResult(interp));
+  }
+  Tcl_ResetResult(interp);
 }
 
 }  // namespace espdiff

@@ -32,4 +32,9 @@ inline constexpr int kMostColourId = 1056;
 ///         not numbers within 1e7)
 std::size_t draw_triangles(Tcl_Interp* interp, int mol, const TriangleSoup& soup);
 
+/// Appends points to graphics molecule `mol` that are not drawn and that a click can pick, by `graphics MOL pickpoint`.
+/// @param positions Angstrom
+/// @throws InputError as draw_triangles()
+void add_pick_points(Tcl_Interp* interp, int mol, const std::vector<Vec3f>& positions);
+
 }  // namespace espdiff

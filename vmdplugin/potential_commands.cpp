@@ -53,6 +53,7 @@ Tcl_Obj* potential(const Call& call) {
   object->potential = make_potential_options(method, take_potential_settings(reader), PmeOptions().temperature_K, true);
   if (Tcl_Obj* const box = reader.find("box")) object->potential.cell = parse_cell(to_string(box));
   object->potential.align = parse_align_atoms(reader.text("align", "none"));
+  object->potential.around_aligned = reader.boolean("around", false);
   object->potential.frames_per_block = static_cast<std::size_t>(std::max(1, reader.integer("block", 1)));
   object->keeps_frames = reader.boolean("each", false);
   reader.finish();

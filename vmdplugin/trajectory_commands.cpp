@@ -44,10 +44,10 @@ std::string map_in_words(Tcl_Obj* map, double temperature_K) {
   const std::string kind = words.empty() ? std::string() : to_string(words[0]);
   if (kind != "pb" && kind != "pme" && kind != "coulomb") return to_string(map);
   GivenPotentialSettings given;
-  std::string others;  // which atoms, which cell
+  std::string others;  // which atoms, which cell, over how many frames
   for (std::size_t i = 1; i + 1 < words.size(); i += 2) {
     const std::string key = to_string(words[i]), value = to_string(words[i + 1]);
-    if (key == "sel" || key == "cell") {
+    if (key == "sel" || key == "cell" || key == "average") {
       others += " " + key + " " + value;
     } else {
       given.emplace_back(key, value);

@@ -9,37 +9,53 @@ namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
 /// Coulomb's law is symmetric: the weights are charges, and the charges are where their potential is read.
-std::vector<double> coulomb_contributions(const MapOrigin& origin, const WeightedPlaces& reading) {
+std::vector<double> coulomb_contributions(const MapOrigin& origin, const WeightedPlaces& reading,
+                                          const std::vector<ProbeCharge>& probes) {
   const std::vector<float> weights(reading.weight.begin(), reading.weight.end());
   const ChargeSums sums(reading.place, weights, coulomb_in_kt(origin.coulomb.temperature_K) / origin.coulomb.dielectric,
                         origin.coulomb.distance_dependent);
   const ChargeSumsView view = sums.view();
-  const Buffer<Vec3d> positions = to_device(origin.positions);
+  const Buffer<Vec3d> positions = to_device(charge_places(origin, probes));
   Buffer<double> found(positions.size());
   const Vec3d* const at = raw(positions);
   double* const out = raw(found);
   for_each_index(positions.size(), [=] ESPDIFF_HD(std::size_t i) { out[i] = view.isolated(at[i]); });
   std::vector<double> result = to_host(found);
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] *= static_cast<double>(origin.charges[i]);
+  scale_by_charges(origin, probes, result);
   return result;
 }
 
 }  // namespace
 
+std::vector<Vec3d> charge_places(const MapOrigin& origin, const std::vector<ProbeCharge>& probes) {
+  std::vector<Vec3d> places = origin.positions;
+  for (const ProbeCharge& probe : probes) places.push_back(probe.position);
+  return places;
+}
+
+void scale_by_charges(const MapOrigin& origin, const std::vector<ProbeCharge>& probes, std::vector<double>& of_unit) {
+  const std::size_t n = origin.charges.size();
+  for (std::size_t i = 0; i < n; ++i) of_unit[i] *= static_cast<double>(origin.charges[i]);
+  for (std::size_t i = 0; i < probes.size(); ++i) of_unit[n + i] *= static_cast<double>(probes[i].charge);
+}
+
 std::vector<std::vector<double>> contributions(const MapGrid& map, const SurfaceMesh& mesh,
-                                               const std::vector<std::vector<double>>& weights, PmeSolver& pme,
+                                               const std::vector<std::vector<double>>& weights,
+                                               const std::vector<ProbeCharge>& given, PmeSolver& pme,
                                                const Progress& progress) {
   if (map.origin == nullptr)
     throw InputError("a given potential map does not say which charges it is made of; let the potential be computed");
   std::vector<WeightedPlaces> readings;
   for (const std::vector<double>& of_reading : weights) readings.push_back(weighted_places(map, mesh, of_reading));
   const MapOrigin& origin = *map.origin;
-  if (origin.method == PotentialMethod::kPoissonBoltzmann) return pb_contributions(map, readings, progress);
+  std::vector<ProbeCharge> probes = given;
+  for (ProbeCharge& probe : probes) probe.position = origin.to_map.apply(probe.position);
+  if (origin.method == PotentialMethod::kPoissonBoltzmann) return pb_contributions(map, readings, probes, progress);
   std::vector<std::vector<double>> result;
   for (const WeightedPlaces& reading : readings) {
     progress.report("causes", static_cast<double>(result.size()) / static_cast<double>(readings.size()));
-    result.push_back(origin.method == PotentialMethod::kPme ? pme.contributions(map, reading)
-                                                            : coulomb_contributions(origin, reading));
+    result.push_back(origin.method == PotentialMethod::kPme ? pme.contributions(map, reading, probes)
+                                                            : coulomb_contributions(origin, reading, probes));
   }
   return result;
 }

@@ -10,13 +10,19 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
+/// The places of a map's charges, then those of the probes.
+std::vector<Vec3d> charge_places(const MapOrigin& origin, const std::vector<ProbeCharge>& probes);
+/// Turns what unit charges add into what the map's charges and the probes add.
+void scale_by_charges(const MapOrigin& origin, const std::vector<ProbeCharge>& probes, std::vector<double>& of_unit);
+
 /// @param pme the engine's, for its plans and workspace
 std::vector<std::vector<double>> contributions(const MapGrid& map, const SurfaceMesh& mesh,
-                                               const std::vector<std::vector<double>>& weights, PmeSolver& pme,
+                                               const std::vector<std::vector<double>>& weights,
+                                               const std::vector<ProbeCharge>& probes, PmeSolver& pme,
                                                const Progress& progress);
 
 /// Those of poisson_boltzmann(), all with the same coefficients.
 std::vector<std::vector<double>> pb_contributions(const MapGrid& map, const std::vector<WeightedPlaces>& readings,
-                                                  const Progress& progress);
+                                                  const std::vector<ProbeCharge>& probes, const Progress& progress);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -107,6 +107,7 @@ std::shared_ptr<MapGrid> isolated_charges(const std::vector<Vec3d>& positions, c
   auto origin = std::make_shared<MapOrigin>();
   origin->method = PotentialMethod::kCoulomb;
   origin->positions = positions;
+  origin->to_map = to_map;
   origin->charges = charges;
   origin->coulomb = options;
   map->origin = std::move(origin);

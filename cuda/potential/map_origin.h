@@ -17,6 +17,7 @@ struct MapOrigin {
   PoissonBoltzmannOptions pb;
   PmeCell cell;
   PmeOptions pme;
+  RigidTransform to_map;  ///< from the frame of meshes into the map's
   /// Of zero_in_bulk(): the solute and its distance to the bulk; negative where the zero was not moved.
   std::vector<Vec3d> solute;
   double bulk_distance_A = -1;

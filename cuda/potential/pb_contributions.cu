@@ -22,8 +22,10 @@ namespace {
 
 /// The transposes on one grid, for several readings. All is public: nvcc takes no device lambdas in private members.
 struct TransposedProblem {
-  TransposedProblem(const MapOrigin& origin, const Lattice& on_lattice, const CubicLattice& lattice)
+  TransposedProblem(const MapOrigin& origin, const std::vector<ProbeCharge>& probes, const Lattice& on_lattice,
+                    const CubicLattice& lattice)
       : origin_(origin),
+        probes_(probes),
         constants_(pb_constants(origin.pb)),
         on_lattice_(on_lattice),
         lattice_(lattice),
@@ -33,13 +35,14 @@ struct TransposedProblem {
         g_(lattice.n_points(), 0.0F) {
     for (std::size_t i = 0; i < origin.positions.size(); ++i)
       atoms_.push_back({origin.positions[i], origin.radii[i], origin.charges[i]});
+    for (const ProbeCharge& probe : probes) atoms_.push_back({probe.position, probe.radius, probe.charge});
     fill_pb_operator(sorted_atoms(origin.positions, origin.radii, origin.charges), lattice_, constants_, origin.pb,
                      on_grid_);
     add_faces_to_diagonal(on_grid_);
     multigrid_ = std::make_unique<Multigrid>(on_grid_);
   }
 
-  /// [atom] contribution of a unit charge. @param reading g, on this grid's points
+  /// [atom, then probe] contribution of a unit charge. @param reading g, on this grid's points
   std::vector<double> unit_contributions(const SparseValues& reading, const std::function<void(double)>& step) {
     std::vector<double> sums(atoms_.size(), 0.0);
     if (reading.point.empty()) return sums;
@@ -165,34 +168,51 @@ struct TransposedProblem {
     }
     MapOrigin with_sum = origin_;
     with_sum.pb.far_boundary = FarBoundary::kDebyeHueckel;
-    TransposedProblem wide(with_sum, around.lattice, twice_as_wide(lattice_, around.lattice));
+    TransposedProblem wide(with_sum, probes_, around.lattice, twice_as_wide(lattice_, around.lattice));
     return wide.unit_contributions(spread_linearly(around, border), step);
   }
 
  private:
   const MapOrigin& origin_;
+  const std::vector<ProbeCharge>& probes_;
   PbConstants constants_;
   Lattice on_lattice_;
   CubicLattice lattice_;
   GridSize grid_size_;
-  std::vector<PbAtom> atoms_;  ///< in the order of the input
+  std::vector<PbAtom> atoms_;  ///< in the order of the input, then the probes
   GridOperator on_grid_;
   std::unique_ptr<Multigrid> multigrid_;
   SolverWork work_;
   Buffer<float> y_, g_;
 };
 
+void require_probes_inside(const MapOrigin& origin, const CubicLattice& lattice,
+                           const std::vector<ProbeCharge>& probes) {
+  constexpr double kSplineReach = 2;  // in grid spacings
+  for (const ProbeCharge& probe : probes) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double u =
+          (probe.position[axis] - static_cast<double>(lattice.origin[axis])) / static_cast<double>(lattice.spacing);
+      if (u >= kSplineReach && u <= static_cast<double>(lattice.size[axis] - 1) - kSplineReach) continue;
+      throw InputError("a charge is asked about outside the potential's grid of " +
+                       std::to_string(origin.positions.size()) + " charges; give the grid a wider padding");
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::vector<double>> pb_contributions(const MapGrid& map, const std::vector<WeightedPlaces>& readings,
-                                                  const Progress& progress) {
+                                                  const std::vector<ProbeCharge>& probes, const Progress& progress) {
   const MapOrigin& origin = *map.origin;
   if (origin.pb.nonlinear && origin.pb.ionic_strength > 0)
     throw InputError(
         "the nonlinear Poisson-Boltzmann equation has no causes: its potential is not a sum over charges; take the "
         "linearized equation");
+  const CubicLattice lattice = checked_pb_lattice(map.lattice, origin.positions, origin.pb);
+  require_probes_inside(origin, lattice, probes);
   progress.report("causes", 0.0);
-  TransposedProblem problem(origin, map.lattice, checked_pb_lattice(map.lattice, origin.positions, origin.pb));
+  TransposedProblem problem(origin, probes, map.lattice, lattice);
   std::vector<std::vector<double>> result;
   for (const WeightedPlaces& reading : readings) {
     const auto step = [&](double residual) {
@@ -201,7 +221,7 @@ std::vector<std::vector<double>> pb_contributions(const MapGrid& map, const std:
                                     static_cast<double>(readings.size()));
     };
     std::vector<double> of_atom = problem.unit_contributions(spread_linearly(map, reading), step);
-    for (std::size_t i = 0; i < of_atom.size(); ++i) of_atom[i] *= static_cast<double>(origin.charges[i]);
+    scale_by_charges(origin, probes, of_atom);
     result.push_back(std::move(of_atom));
   }
   return result;

@@ -10,6 +10,7 @@
 #include "base/progress.h"
 #include "base/work.h"
 #include "cuda/potential/bulk_zero.h"
+#include "cuda/potential/contributions.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/map_origin.h"
 #include "cuda/potential/pmepot_places.h"
@@ -339,6 +340,7 @@ std::shared_ptr<MapGrid> PmeSolver::potential(const std::vector<Vec3d>& position
   auto origin = std::make_shared<MapOrigin>();
   origin->method = PotentialMethod::kPme;
   origin->positions = positions;
+  origin->to_map = to_map;
   origin->charges = charges;
   origin->cell = cell;
   origin->pme = options;
@@ -361,7 +363,8 @@ void PmeSolver::solve_transposed(Kept<T>& kept, const MapGrid& map, const Weight
   convolve(grid, origin.cell, origin.pme, solution);
 }
 
-std::vector<double> PmeSolver::contributions(const MapGrid& map, const WeightedPlaces& reading) {
+std::vector<double> PmeSolver::contributions(const MapGrid& map, const WeightedPlaces& reading,
+                                             const std::vector<ProbeCharge>& probes) {
   const MapOrigin& origin = *map.origin;
   const PmeOptions& options = origin.pme;
   MapGrid solution;
@@ -373,7 +376,8 @@ std::vector<double> PmeSolver::contributions(const MapGrid& map, const WeightedP
   } else {
     solve_transposed(single_, map, reading, solution);
   }
-  const std::vector<float> smooth = values_at(solution, grid_coordinates(origin.positions, origin.cell, options));
+  const std::vector<Vec3d> places = charge_places(origin, probes);
+  const std::vector<float> smooth = values_at(solution, grid_coordinates(places, origin.cell, options));
   std::vector<double> result(smooth.begin(), smooth.end());
   if (options.part == PmePart::kFull) {
     std::vector<Vec3d> parts = reading.place;
@@ -382,7 +386,7 @@ std::vector<double> PmeSolver::contributions(const MapGrid& map, const WeightedP
     }
     const ChargeSums sums = direct_sums(parts, reading.weight, origin.cell, options);
     const ChargeSumsView view = sums.view();
-    const Buffer<Vec3d> at_atoms = to_device(cell_parts(origin.positions, origin.cell, options));
+    const Buffer<Vec3d> at_atoms = to_device(cell_parts(places, origin.cell, options));
     Buffer<double> direct(result.size());
     const Vec3d* const at = raw(at_atoms);
     double* const out = raw(direct);
@@ -394,7 +398,7 @@ std::vector<double> PmeSolver::contributions(const MapGrid& map, const WeightedP
     const double mean = origin.bulk_distance_A < 0 ? direct_mean(sum_of(reading.weight), origin.cell, options) : 0.0;
     for (std::size_t i = 0; i < result.size(); ++i) result[i] += found[i] - mean;
   }
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] *= static_cast<double>(origin.charges[i]);
+  scale_by_charges(origin, probes, result);
   return result;
 }
 

@@ -18,8 +18,10 @@ class PmeSolver {
   std::shared_ptr<MapGrid> potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
                                      const PmeCell& cell, const PmeOptions& options, const RigidTransform& to_map,
                                      const Progress& progress);
-  /// [atom] what each charge of a map made here adds to a reading: the same sums, with the weights as charges.
-  std::vector<double> contributions(const MapGrid& map, const WeightedPlaces& reading);
+  /// [atom, then probe] what each charge of a map made here adds to a reading: the same sums, with the weights as
+  /// charges.
+  std::vector<double> contributions(const MapGrid& map, const WeightedPlaces& reading,
+                                    const std::vector<ProbeCharge>& probes);
 
  private:
   template <typename T>

@@ -162,6 +162,7 @@ std::shared_ptr<MapGrid> poisson_boltzmann(const std::vector<Vec3d>& positions, 
   auto origin = std::make_shared<MapOrigin>();
   origin->method = PotentialMethod::kPoissonBoltzmann;
   origin->positions = positions;
+  origin->to_map = to_map;
   origin->radii = radii;
   origin->charges = charges;
   origin->pb = options;

@@ -11,6 +11,7 @@ not listed by --help are those of `espdiff matrix`.
 """
 
 import argparse
+import inspect
 import os
 
 from dask.distributed import Client, LocalCluster
@@ -33,10 +34,30 @@ def parse():
 
 
 def settings(words):
-    """--potential=pb or --potential pb as potential="pb"."""
-    given, words = {}, [part for word in words for part in word.split("=", 1)]
-    for name, value in zip(words[::2], words[1::2]):
-        given[name.lstrip("-").replace("-", "_")] = value
+    """--potential=pb or --potential pb as potential="pb", --cavities as cavities=True, --no-project as project=False."""
+    parameters = inspect.signature(espdiff.matrix).parameters
+    kinds = {row["name"]: row["kind"] for row in espdiff.help_options()}
+    given, words = {}, list(words)
+    while words:
+        option, has_value, value = words.pop(0).partition("=")
+        name = option[2:].replace("-", "_")
+        off = name.startswith("no_") and name[3:] in parameters
+        name = name[3:] if off else "patches" if name == "patch" else name
+        if not option.startswith("--") or name not in parameters:
+            raise SystemExit(f"matrix_dask.py: {option}: espdiff matrix has no such option")
+        if isinstance(parameters[name].default, bool):
+            given[name] = not off
+            continue
+        if not has_value:
+            if not words:
+                raise SystemExit(f"matrix_dask.py: {option} needs a value")
+            value = words.pop(0)
+        if kinds.get(name) == "named":
+            given.setdefault(name, {}).update([value.split("=", 1)])
+        elif kinds.get(name) == "list":
+            given[name] = f"{given[name]},{value}" if name in given else value
+        else:
+            given[name] = int(value) if isinstance(parameters[name].default, int) and name not in kinds else value
     return given
 
 

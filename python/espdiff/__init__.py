@@ -4,7 +4,7 @@
     >>> r = espdiff.compare("wild.pqr", "mutant.pqr")
     >>> r.metrics["mean_abs_difference"], r.certificate.trustworthy
 
-A state is a file (PQR, PDB, mmCIF), a `State`, an AtomGroup of MDAnalysis or one of ProDy. Options have the names of
+A state is a file (PQR, PDB, mmCIF), a `State`, a Universe or AtomGroup of MDAnalysis, or atoms of ProDy. Options have the names of
 the command line with underscores; `help_options()` lists them.
 """
 
@@ -26,11 +26,13 @@ except ImportError as _missing:
 else:
     from ._ensembles import Ensemble, ensemble
     from ._inputs import state
-    from ._functions import Series, compare, frames, help_options, matrix, merge, potential, status, surface
+    from ._functions import (
+        Series, compare, frames, help_options, matrix, merge, potential, prepare, status, surface)
     from ._results import Certificate, Comparison, Matrix
+    from ._saved import load
 
 __all__ = [
     "Certificate", "Comparison", "Ensemble", "Map", "Matrix", "Series", "State", "Surface", "__version__", "compare",
-    "ensemble", "frames", "help_options", "matrix", "merge", "potential", "state", "status", "surface",
+    "ensemble", "frames", "help_options", "load", "matrix", "merge", "potential", "prepare", "state", "status", "surface",
 ]
 __all__ += _errors.__all__

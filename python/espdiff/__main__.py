@@ -38,6 +38,11 @@ def main(arguments=None):
         return 1
 
 
-if __name__ == "__main__":
+def start():
+    """The console script `espdiff`."""
     _start_again_without_spinning()
     sys.exit(main())
+
+
+if __name__ == "__main__":
+    start()

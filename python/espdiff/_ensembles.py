@@ -1,19 +1,31 @@
 """ensemble(): groups of simulations from files or AtomGroups, in one process or in parts."""
 
+from __future__ import annotations
+
 import hashlib
+import numbers
 import os
 import tempfile
+import typing
 import warnings
 
 import numpy as np
 
-from . import _core
+from . import _checks, _core
 from ._functions import _as_settings, _Progress
 from ._inputs import frame_state, is_atomgroup
-from ._results import EngineResult, table_of
+from ._results import EngineResult, frame_of, table_of
+from ._signatures import takes_options
+
+if typing.TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._options import Options
 
 
 def _checked(name, value, least, most):
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise _core.InputError(f"{name}: {value!r} is not a number")
     if not least <= value <= most:
         raise _core.InputError(f"{name}: {value} is not from {least} to {most}")
     return value
@@ -73,7 +85,7 @@ def _members(group, given):
         return list(given.items())
     if is_atomgroup(given) or isinstance(given, (str, os.PathLike)):
         given = [given]
-    return [(None, replicate) for replicate in given]
+    return [(None, replicate) for replicate in _checks.several(f"groups[{group!r}]", given, "replicates")]
 
 
 def _groups(groups, frames, charges):
@@ -137,6 +149,15 @@ class Ensemble(EngineResult):
         """What each frame is and how it was mapped: a pandas.DataFrame where pandas is installed, else columns."""
         return table_of(self._core.frame_columns())
 
+    def to_frame(self):
+        """The table of the residues as a pandas.DataFrame."""
+        return frame_of(self._core.residue_columns())
+
+    def _repr_html_(self):
+        from ._html import ensemble
+
+        return ensemble(self)
+
     def plot(self, ax=None, top=None):
         """Draws each residue's difference with its interval (Matplotlib); returns the axes. Filled: significant."""
         from ._plots import plot_ensemble
@@ -165,9 +186,10 @@ def _order(*, charges=None, maps=None, map_unit="", frames="all", template="medo
         "charges": {str(group): os.fspath(path) for group, path in (charges or {}).items()},
         "maps": {str(group): os.fspath(pattern) for group, pattern in (maps or {}).items()}, "map_unit": map_unit,
         "frames": frames if isinstance(frames, str) else "all", "template": str(template), "output": output,
-        "resume": resume, "overwrite": overwrite, "skip_errors": skip_errors, "shard": shard or "1/1",
+        "resume": _checks.switch("resume", resume), "overwrite": _checks.switch("overwrite", overwrite),
+        "skip_errors": _checks.switch("skip_errors", skip_errors), "shard": shard or "1/1",
         "from": os.fspath(from_file) if from_file else "",
-        "check_template": check_template, "states": states, "regress": os.fspath(regress or ""),
+        "check_template": _checks.switch("check_template", check_template), "states": _checks.switch("states", states), "regress": os.fspath(regress or ""),
         "alpha": _checked("alpha", alpha, 1e-6, 0.5),
         "control": control, "equilibration": str(equilibration),
         "most_missing": _checked("most_missing", most_missing, 0, 0.9),
@@ -176,10 +198,19 @@ def _order(*, charges=None, maps=None, map_unit="", frames="all", template="medo
         "plugins": plugins}
 
 
-ORDER_KEYS = frozenset(_order.__kwdefaults__)
+ORDER_KEYS = frozenset(_order.__kwdefaults__) - {"output"}
 
 
-def ensemble(groups=None, *, output=None, potential="auto", device="auto", threads=0, progress=None, **options):
+def _check_groups(groups):
+    if not isinstance(groups, (dict, str, os.PathLike)):
+        raise _core.InputError(
+            f'groups: a {type(groups).__name__} has no names; give {{"wild": ["w1.pdb", ...], "mutant": ["m1.pdb", ...]}}, or '
+            "the path of a list")
+
+
+@takes_options(besides={key: value for key, value in _order.__kwdefaults__.items() if key != "output"})
+def ensemble(groups=None, *, output=None, potential: str = "auto", device: str = "auto", threads: int = 0, progress=None,
+             **options: Unpack[Options]) -> typing.Optional[Ensemble]:
     """Compares two groups of simulations on one template surface: where is the difference more than noise?
 
     groups: {name: replicates}, two groups, or one to describe it; or the path of a list of them (`espdiff ensemble
@@ -200,6 +231,9 @@ def ensemble(groups=None, *, output=None, potential="auto", device="auto", threa
 
     Returns an Ensemble, None for a shard. What the design cannot show is a warning.
     """
+    _checks.computation(potential, device, threads)
+    if groups is not None:
+        _check_groups(groups)
     order = {name: value for name, value in options.items() if name in ORDER_KEYS}
     settings = {name: value for name, value in options.items() if name not in ORDER_KEYS}
     if output is None and (order.get("shard") or order.get("resume")):
@@ -208,8 +242,8 @@ def ensemble(groups=None, *, output=None, potential="auto", device="auto", threa
         raise _core.InputError('groups: none is given; name one or two, {"wild": ["w1.pdb", ...], "mutant": [...]}')
     folder = tempfile.TemporaryDirectory(prefix="espdiff-") if output is None else None
     made = _order(**order, output=os.path.join(folder.name, "ensemble") if folder else os.fspath(output))
-    universes = {atoms.universe for members in (groups.values() if isinstance(groups, dict) else ())
-                 for _, atoms in _members("", members) if is_atomgroup(atoms)}
+    universes = {atoms.universe for name, members in (groups.items() if isinstance(groups, dict) else ())
+                 for _, atoms in _members(name, members) if is_atomgroup(atoms)}
     before = [(universe.trajectory, universe.trajectory.frame) for universe in universes]
     given = []
     try:
@@ -225,7 +259,7 @@ def ensemble(groups=None, *, output=None, potential="auto", device="auto", threa
     if core is None:
         return None
     for text in core.design_warnings:
-        warnings.warn(text, stacklevel=2)
+        warnings.warn(text, stacklevel=3)
     return Ensemble(core, folder)
 
 

@@ -1,12 +1,21 @@
 """The functions of the package: arguments of Python's kind for the engine's."""
 
+from __future__ import annotations
+
 import os
 import tempfile
+import typing
 import warnings
 
-from . import _core
+from . import _checks, _core
 from ._inputs import refuse_the_same_atoms, state_of
 from ._results import Comparison, Matrix
+from ._signatures import PREPARATION_GROUPS, option_rows, takes_options
+
+if typing.TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._options import Options
 
 
 def _as_text(value):
@@ -57,7 +66,7 @@ class _Progress:
     """What `progress=` gives: True for a bar, a function of (stage, fraction), or nothing."""
 
     def __init__(self, progress, what):
-        self.listener = _Bar(what) if progress is True else progress or None
+        self.listener = _Bar(what) if _checks.listener(progress) is True else progress or None
 
     def __enter__(self):
         return self.listener
@@ -80,11 +89,14 @@ def _with_map(state, given, unit, role):
     raise _core.InputError(f"{role}_map: a {type(given).__name__} is no map; give a path or an espdiff.Map")
 
 
-def compare(source, target, *, potential="auto", source_map=None, target_map=None, source_map_unit=None,
-            target_map_unit=None, pme_cell="auto", device="auto", threads=0, progress=None, **options):
+@takes_options
+def compare(source, target, *, potential: str = "auto", source_map=None, target_map=None, source_map_unit=None,
+            target_map_unit=None, pme_cell: str = "auto", device: str = "auto", threads: int = 0, progress=None,
+            **options: Unpack[Options]) -> Comparison:
     """Compares the electrostatic potential on the surfaces of two states.
 
-    source, target: path, State, or AtomGroup (MDAnalysis, ProDy).
+    source, target: path, State, Universe or AtomGroup of MDAnalysis, atoms of ProDy. Those without charges get some from
+    PDB2PQR as files do, or are an error; potential="none" compares shapes alone.
     potential: what is computed without maps: auto, pb, pme, coulomb or none (`espdiff compare --help`).
     source_map, target_map: potentials instead: paths (DX, VTI, cube) or Maps.
     device: auto, cpu, cuda or cuda:N. threads: of the CPU; 0 for all.
@@ -94,33 +106,51 @@ def compare(source, target, *, potential="auto", source_map=None, target_map=Non
     Returns a Comparison. Raises espdiff.Error: InputError, FormatError, IoError, GeometryError, ...; Ctrl-C raises
     KeyboardInterrupt and ends the computation.
     """
+    potential, pme_cell, device, threads = _checks.computation(potential, device, threads, pme_cell, progress)
     if source_map is None and target_map is None:
         refuse_the_same_atoms(source, target)
-    a = _with_map(state_of(source, "source", potential, options), source_map, source_map_unit, "source")
-    b = _with_map(state_of(target, "target", potential, options), target_map, target_map_unit, "target")
+    a = _with_map(state_of(source, "source"), source_map, source_map_unit, "source")
+    b = _with_map(state_of(target, "target"), target_map, target_map_unit, "target")
     call = _call("compare", {"potential": potential, **options})
     with _Progress(progress, "compare") as listener:
         return Comparison(_core.compare(a, b, _as_settings(options), potential, pme_cell, device, threads, call, listener))
 
 
-def surface(state, *, potential="auto", pme_cell="auto", map=None, map_unit=None, regularize=False, device="auto",
-            threads=0, progress=None, **options):
-    """The surface of one molecule, with its potential at the vertices where there are charges or a map.
+@takes_options
+def surface(state, *, potential: str = "auto", pme_cell: str = "auto", map=None, map_unit=None, regularize: bool = False,
+            device: str = "auto", threads: int = 0, progress=None, **options: Unpack[Options]) -> _core.Surface:
+    """The surface of one molecule with its potential at the vertices; potential="none" leaves that out.
 
     Arguments as of compare(). regularize: even out the triangles, as for the source of a comparison.
     """
-    given = _with_map(state_of(state, "state", potential, options), map, map_unit, "state")
+    potential, pme_cell, device, threads = _checks.computation(potential, device, threads, pme_cell, progress)
+    regularize = _checks.switch("regularize", regularize)
+    given = _with_map(state_of(state, "state"), map, map_unit, "state")
     with _Progress(progress, "surface") as listener:
         return _core.surface(given, _as_settings(options), potential, pme_cell, device, threads, regularize, listener)
 
 
-def potential(state, method="auto", *, device="auto", threads=0, progress=None, **options):
+@takes_options
+def potential(state, method: str = "auto", *, device: str = "auto", threads: int = 0, progress=None,
+              **options: Unpack[Options]) -> _core.Map:
     """A map of the potential of a molecule's charges: pb, pme or coulomb; auto as in compare().
 
     Returns a Map: values (nx, ny, nz), origin, steps, unit; save("map.dx").
     """
+    _checks.text("method", method), _checks.computation("auto", device, threads)
     with _Progress(progress, "potential") as listener:
-        return _core.potential(state_of(state, "state", method, options), _as_settings(options), method, device, threads, listener)
+        return _core.potential(state_of(state, "state"), _as_settings(options), method, device, threads, listener)
+
+
+@takes_options(groups=PREPARATION_GROUPS)
+def prepare(state, *, progress=None, **options: Unpack[Options]) -> _core.State:
+    """A State with charges, radii and hydrogens, as compare() makes it of what has none: PDB2PQR and PROPKA.
+
+    state: as in compare(); one that has charges keeps them. options: select, leave_out, ph, force_field, ligand, ...
+    Returns a State: save("a.pqr") writes it, preparation tells what was added, repaired and protonated.
+    """
+    with _Progress(progress, "prepare") as listener:
+        return _core.prepare(state_of(state), _as_settings(options), listener)
 
 
 def labels_of_states(states):
@@ -129,9 +159,11 @@ def labels_of_states(states):
             for i, s in enumerate(states)]
 
 
-def matrix(states, labels=None, *, groups=None, potential="auto", pme_cell="auto", output=None, resume=False,
-           overwrite=False, skip_errors=False, shard=None, template=None, exact_sample=6, device="auto", threads=0,
-           progress=None, **options):
+@takes_options
+def matrix(states, labels=None, *, groups=None, potential: str = "auto", pme_cell: str = "auto", output=None,
+           resume: bool = False, overwrite: bool = False, skip_errors: bool = False, shard=None, template=None,
+           exact_sample: int = 6, device: str = "auto", threads: int = 0, progress=None,
+           **options: Unpack[Options]) -> typing.Optional[Matrix]:
     """Compares every state with every other one, in both directions.
 
     states: as in compare(). labels: a name for each; paths name themselves. groups: optional, one for each state.
@@ -143,29 +175,37 @@ def matrix(states, labels=None, *, groups=None, potential="auto", pme_cell="auto
 
     Returns a Matrix, None for a shard.
     """
-    states = list(states)
+    potential, pme_cell, device, threads = _checks.computation(potential, device, threads, pme_cell, progress)
+    resume, overwrite, skip_errors = (_checks.switch(name, value) for name, value in (
+        ("resume", resume), ("overwrite", overwrite), ("skip_errors", skip_errors)))
+    states = _checks.several("states", states, "states")
+    labels, groups = ([_checks.text(name, entry) for entry in _checks.several(name, given, "texts")]
+                      if given is not None else None for name, given in (("labels", labels), ("groups", groups)))
+    if shard is not None:
+        _checks.text("shard", shard)
     if labels is None:
         labels = labels_of_states(states)
     if (shard or resume) and output is None:
         raise _core.InputError("output: a part of a matrix, or one to go on with, needs files")
     if not isinstance(exact_sample, int) or exact_sample < 0:
         raise _core.InputError(f"exact_sample: {exact_sample!r} is no number of pairs; give 0 or more")
-    given = [state_of(state, f"states[{i}]", potential, options) for i, state in enumerate(states)]
+    given = [state_of(state, f"states[{i}]") for i, state in enumerate(states)]
     with _Progress(progress, "matrix") as listener, tempfile.TemporaryDirectory(prefix="espdiff-") as scratch:
-        prefix = os.fspath(output) if output is not None else os.path.join(scratch, "matrix")
+        prefix = _checks.path("output", output) if output is not None else os.path.join(scratch, "matrix")
         text = _core.matrix(given, list(labels), list(groups or []), _as_settings(options), potential, pme_cell, device,
                             threads, prefix, resume, overwrite, skip_errors, shard or "",
                             "" if template is None else str(template), exact_sample, listener)
     return Matrix(text) if text else None
 
 
-def merge(parts, output, *, overwrite=False):
+def merge(parts, output, *, overwrite: bool = False):
     """Merges the parts of `shard=`, as `espdiff merge` does: the bytes of one process.
 
     parts: OUT.shard-*.state of a matrix (with `template` the OUT.shard-*.h5 too), whose OUT.csv and OUT.json are written;
     or OUT.shard-*.h5 of an ensemble, whose OUT.h5 and results are. Returns the Matrix or Ensemble.
     """
-    parts, output = [os.fspath(part) for part in parts], os.fspath(output)
+    parts = [_checks.path("parts", part) for part in _checks.several("parts", parts, "paths")]
+    output, overwrite = _checks.path("output", output), _checks.switch("overwrite", overwrite)
     if parts and all(part.endswith(".h5") for part in parts) and not _core.is_template_matrix(parts):
         from ._ensembles import ensemble
 
@@ -184,12 +224,15 @@ class Series:
     start: auto, source or previous: where each mapping begins (`espdiff trajectory --help`).
     """
 
-    def __init__(self, source, *, potential="auto", pme_cell="auto", start="auto", device="auto", threads=0, **options):
-        call = _call("Series", {"potential": potential, "start": start, **options})
-        self._series = _core.Series(state_of(source, "source", potential, options), _as_settings(options), potential, pme_cell, start, device,
+    @takes_options
+    def __init__(self, source, *, potential: str = "auto", pme_cell: str = "auto", start: str = "auto",
+                 device: str = "auto", threads: int = 0, **options: Unpack[Options]):
+        potential, pme_cell, device, threads = _checks.computation(potential, device, threads, pme_cell)
+        call = _call("Series", {"potential": potential, "start": _checks.text("start", start), **options})
+        self._series = _core.Series(state_of(source, "source"), _as_settings(options), potential, pme_cell, start, device,
                                     threads, call)
 
-    def step(self, target, progress=None):
+    def step(self, target, progress=None) -> Comparison:
         """Compares the source with the next target. Returns a Comparison."""
         with _Progress(progress, "compare") as listener:
             return Comparison(self._series.step(state_of(target, "target"), listener))
@@ -207,15 +250,16 @@ def frames(topology, *files, plugins=""):
     """
     if not files:
         raise _core.InputError("files: name one trajectory or more")
-    found = _core.Frames(os.fspath(topology), [os.fspath(path) for path in files], os.fspath(plugins))
+    found = _core.Frames(_checks.path("topology", topology), [_checks.path("files", path) for path in files],
+                         _checks.path("plugins", plugins))
     if found.incomplete:
         warnings.warn(found.incomplete, stacklevel=2)
     return found
 
 
 def help_options():
-    """Every option that compare() takes: a list of dicts with name, group, choices, default and help."""
-    return [{**row, "name": row["name"].replace("-", "_")} for row in _core.settings()]
+    """Every option that compare() takes: a list of dicts with name, kind, group, choices, default and help."""
+    return option_rows()
 
 
 def status():

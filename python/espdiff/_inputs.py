@@ -3,11 +3,13 @@
 import copyreg
 import os
 
+import numpy as np
+
 from ._core import InputError, State
 
 
 def state(given):
-    """The State of a path, or of an AtomGroup of MDAnalysis or ProDy as it is now.
+    """The State of a path, or of a Universe or AtomGroup of MDAnalysis, or ProDy's atoms, as they are now.
 
     A State is a copy: it stays when the universe moves on to another frame.
     """
@@ -37,6 +39,8 @@ def _rebuild(parts):
             raise InputError(f"{parts['path']}: it has changed since the State was made of it; read it again")
     else:
         made = State.from_arrays(**parts["arrays"])
+        if "preparation" in parts:
+            made = made._with_preparation(parts["preparation"])
     if parts.get("everything") is not None:
         made = made.surrounded_by(State.from_arrays(**parts["everything"]))
     if "map_path" in parts:
@@ -50,38 +54,32 @@ def _rebuild(parts):
 copyreg.pickle(State, lambda given: (_rebuild, (given._parts(),)))
 
 
-def state_of(given, role="state", potential="auto", options=()):
-    """The State of a path, a State, or an AtomGroup of MDAnalysis or ProDy.
+def is_universe(given):
+    return is_atomgroup(given) and hasattr(given, "trajectory") and hasattr(given, "select_atoms")
 
-    potential, options: of the computation; an AtomGroup without charges is refused where it needs them.
+
+def state_of(given, role="state"):
+    """The State of a path, a State, a Universe or AtomGroup of MDAnalysis, or atoms of ProDy.
+
+    Of a Universe, as of a file, the water is no part of the molecule; it counts for pme in the universe's cell.
     Raises InputError naming `role` for anything else.
     """
-    if potential in ("pb", "pme", "coulomb") and "charges_from" not in options:
-        _require_charges(given, role, potential)
     if isinstance(given, State):
         return given
     if isinstance(given, (str, os.PathLike)):
         return State.read(os.fspath(given))
+    if is_universe(given):
+        whole = _from_mdanalysis(given.atoms, role)
+        made = whole.without_water()
+        return made if len(made) == len(whole) else made.surrounded_by(whole)
     if is_atomgroup(given):
         return _from_mdanalysis(given.atoms, role)
     if hasattr(given, "getCoords") and hasattr(given, "getNames"):
         return _from_prody(given, role)
     raise InputError(
-        f"{role}: a {type(given).__name__} is no molecule; give a path, an espdiff.State, or an AtomGroup of "
-        "MDAnalysis or ProDy"
+        f"{role}: a {type(given).__name__} is no molecule; give a path, an espdiff.State, a Universe or AtomGroup of "
+        "MDAnalysis, or atoms of ProDy"
     )
-
-
-def _require_charges(given, role, potential):
-    if is_atomgroup(given) and not hasattr(given.atoms, "charges"):
-        raise InputError(
-            f"{role}: the AtomGroup has no charges, which potential={potential!r} needs; load a topology that has them "
-            "(PSF, TPR, prmtop), add them, universe.add_TopologyAttr('charges', values), or take them from a PQR file, "
-            "charges_from=")
-    if hasattr(given, "getCharges") and given.getCharges() is None:
-        raise InputError(
-            f"{role}: the atoms have no charges, which potential={potential!r} needs; set them, atoms.setCharges(values), or "
-            "take them from a PQR file, charges_from=")
 
 
 def _texts(values):
@@ -105,7 +103,33 @@ def labels_of(atoms):
     return labels
 
 
+def one_conformation(atoms):
+    """Without alternate locations but those of the largest occupancy of their residue, as files are read."""
+    if not hasattr(atoms, "altLocs"):
+        return atoms
+    places = np.array([str(place).strip() for place in atoms.altLocs])
+    several = np.flatnonzero(places != "")
+    if len(several) == 0:
+        return atoms
+    occupancies = getattr(atoms, "occupancies", np.ones(len(atoms)))
+    sums = {}
+    for i in several:
+        of_residue = sums.setdefault(atoms.resindices[i], {})
+        of_residue[places[i]] = of_residue.get(places[i], 0.0) + float(occupancies[i])
+    best = {residue: max(found, key=found.get) for residue, found in sums.items()}
+    keep, names = [], {(atoms.resindices[i], atoms.names[i]) for i in several if places[i] == best[atoms.resindices[i]]}
+    for i in range(len(atoms)):
+        key = (atoms.resindices[i], atoms.names[i])
+        if places[i] == "" or places[i] == best[key[0]]:
+            keep.append(i)
+        elif key not in names:  # the best conformation lacks this atom
+            names.add(key)
+            keep.append(i)
+    return atoms[keep]
+
+
 def _state_of_atoms(atoms, name):
+    atoms = one_conformation(atoms)
     radii = atoms.radii if hasattr(atoms, "radii") else None
     charges = atoms.charges if hasattr(atoms, "charges") else None
     if radii is None and not hasattr(atoms, "names") and not hasattr(atoms, "elements"):

@@ -47,3 +47,36 @@ def plot_ensemble(result, ax=None, top=None):
     ax.set_xticks(at, labels[chosen], rotation=90, fontsize=7)
     ax.margins(x=0.02)
     return ax
+
+
+def residue_labels(columns):
+    """A:LYS33, of residue columns."""
+    return np.array([f"{chain}{':' if chain else ''}{name}{number}{code}" for chain, name, number, code in zip(
+        columns["chain"], columns["name"], columns["number"], columns["insertion_code"])])
+
+
+def plot_residues(result, quantity, ax=None, top=None):
+    """A quantity of the residues as bars."""
+    import matplotlib.pyplot as plt
+
+    from ._core import InputError, metrics
+
+    columns = result.residue_columns()
+    known = {row["name"]: row for row in metrics()}
+    shown = [name for name in columns if name in known]
+    if quantity not in shown:
+        raise InputError(f"quantity: there is no {quantity!r}; there are {', '.join(shown)}")
+    values, labels = np.asarray(columns[quantity]), residue_labels(columns)
+    if top is not None:
+        order = np.argsort(-np.nan_to_num(np.abs(values)), kind="stable")[:top]
+        values, labels = values[order], labels[order]
+    if ax is None:
+        _, ax = plt.subplots(figsize=(8, 3), layout="constrained")
+    ax.bar(np.arange(len(values)), values, width=0.9, color="#d55e00")
+    ticks = np.unique(np.linspace(0, max(len(values) - 1, 0), min(len(values), 24)).astype(int))
+    ax.set_xticks(ticks, labels[ticks] if len(values) else [], rotation=90, fontsize=7)
+    about = known[quantity]
+    unit = result.unit if about["unit"] == "potential" else about["unit"]
+    ax.set_ylabel(f"{about['label']}{f' ({unit})' if unit else ''}")
+    ax.margins(x=0.01)
+    return ax

@@ -40,7 +40,7 @@ std::shared_ptr<Comparison> compare_states(const StatePtr& source, const StatePt
     const InputOptions& input = made->options.input;
     LoadedState a = load(*source, StateRole::kSource, computation, nullptr, told);
     LoadedState b = load(*target, StateRole::kTarget, computation, &a.molecule, told);
-    if (source->file != nullptr || target->file != nullptr) check_left_out(input, {&a, &b});
+    check_left_out(input, {&a, &b});
     std::vector<InputFile> inputs;
     note_inputs(*source, a, "source", inputs);
     note_inputs(*target, b, "target", inputs);
@@ -54,10 +54,8 @@ std::shared_ptr<Comparison> compare_states(const StatePtr& source, const StatePt
     source_side.parts = source_parts(a.molecule, a.whole, b.molecule, b.whole, input);
     const std::unique_ptr<Engine> engine = computation.make_engine();
     made->provenance = provenance_of(*engine, call, std::move(inputs));
-    for (const auto& [role, state] : {std::pair("source", &a), std::pair("target", &b)}) {
-      if (state->preparation)
-        made->provenance.preparations.emplace_back(role, std::make_shared<Preparation>(*state->preparation));
-    }
+    note_preparation("source", a, made->provenance);
+    note_preparation("target", b, made->provenance);
     made->result = compare(*engine, source_side, target_side, made->options, told);
     note_states(made->result, a, b, radii_note);
     if (!made->result.has_potential) made->result.shapes_because = plan.because();
@@ -128,9 +126,53 @@ std::vector<std::string> save(const Comparison& c, const std::string& prefix) {
   std::vector<std::string> inputs;
   for (const InputFile& input : c.provenance.inputs) inputs.push_back(input.path);
   check_outputs(inputs, files);
+  if (c.result.causes != nullptr) files.push_back(prefix + kCausesEnding);
   const nb::gil_scoped_release unlocked;
   write_compare(prefix, c.source_molecule, c.target_molecule, c.result, c.options, c.provenance, c.kept);
   return files;
+}
+
+nb::object copy_of(const VtpArray& array) {
+  const auto copied = [&](auto zero) {
+    using T = decltype(zero);
+    const auto* const first = static_cast<const T*>(array.values);
+    auto* const values =
+        new std::vector<T>(first, first + array.n_tuples * static_cast<std::size_t>(array.n_components));
+    const nb::capsule owner(values, [](void* kept) noexcept { delete static_cast<std::vector<T>*>(kept); });
+    const std::size_t shape[2] = {array.n_tuples, static_cast<std::size_t>(array.n_components)};
+    return nb::cast(nb::ndarray<nb::numpy, T>(values->data(), array.n_components == 1 ? 1 : 2, shape, owner));
+  };
+  switch (array.type) {
+    case VtpType::kFloat64: return copied(0.0);
+    case VtpType::kInt32: return copied(std::int32_t{0});
+    case VtpType::kUInt8: return copied(std::uint8_t{0});
+    case VtpType::kFloat32: break;
+  }
+  return copied(0.0F);
+}
+
+/// What OUT.vtp holds, as copies.
+nb::dict surface_arrays(nb::handle self) {
+  const Comparison& c = nb::cast<const Comparison&>(self);
+  const SurfaceArrays surface(c.source_molecule, c.result, c.provenance.version);
+  nb::dict points, cells, texts, all;
+  for (const VtpArray& array : surface.file.point_arrays) points[array.name.c_str()] = copy_of(array);
+  for (const VtpArray& array : surface.file.cell_arrays) cells[array.name.c_str()] = copy_of(array);
+  for (const auto& [name, text] : surface.file.texts) texts[name.c_str()] = text;
+  all["positions"] = copy_of(surface.file.points);
+  all["triangles"] = view_of(*surface.file.triangles, self);
+  all["points"] = points;
+  all["cells"] = cells;
+  all["texts"] = texts;
+  return all;
+}
+
+std::string verdict_line(const Comparison& c) {
+  std::ostringstream out;
+  print_verdict_line(out, c.result);
+  std::string line = out.str();
+  while (!line.empty() && line.back() == '\n') line.pop_back();
+  return line;
 }
 
 /// A property that views an array of the mapped surface.
@@ -185,6 +227,8 @@ void add_comparison(nb::module_& module) {
           "(vertices) float64, A^2: a third of a vertex's triangles, without unmatched and corrupt ones.")
       .def_prop_ro("metrics", &metric_values, "Every number of the comparison by name; NaN where there is none.")
       .def("residue_columns", &residue_columns, "The residue table by columns.")
+      .def("surface_arrays", &surface_arrays, "What OUT.vtp holds: positions, triangles, points, cells, texts.")
+      .def_prop_ro("verdict", &verdict_line, "The verdict and the main number in one line.")
       .def("json", &json_text, "The content of OUT.json.")
       .def("table", &table, "The table that the command line prints.")
       .def("save", &save, nb::arg("prefix"),

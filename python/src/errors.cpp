@@ -34,12 +34,18 @@ const std::array<PythonError, 9> kErrors = {{
 // Immortal, as Python's own exceptions are: errors may be translated until the interpreter ends.
 std::array<PyObject*, kErrors.size()> made_classes{};
 
+/// As it is typed: numbers as they are, other values as texts.
+std::string literal(const std::string& value) {
+  const bool is_number = value.find_first_not_of("0123456789.-+") == std::string::npos;
+  return is_number ? value : value.find('"') == std::string::npos ? "\"" + value + "\"" : "'" + value + "'";
+}
+
 /// The option grid-spacing of the command line is grid_spacing=1 in Python.
 std::string spelled(const NamedOption& option) {
   std::string name = option.name;
   for (char& c : name) c = c == '-' ? '_' : c;
   if (option.is_switch) return "`" + name + "=True`";
-  return option.value.empty() ? "`" + name + "`" : "`" + name + "=" + option.value + "`";
+  return option.value.empty() ? "`" + name + "`" : "`" + name + "=" + literal(option.value) + "`";
 }
 
 void raise(const Error& error) {

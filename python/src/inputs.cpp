@@ -7,8 +7,10 @@
 #include "compare/settings.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
+#include "io/select_atoms.h"
 #include "io/structure_file.h"
-#include "prepare/take_charges.h"
+#include "potential/choose_potential.h"
+#include "prepare/pdb2pqr.h"
 #include "report/state_report.h"
 
 namespace espdiff::python {
@@ -19,15 +21,42 @@ bool is_of_potential(const std::string& name) {
   return std::any_of(all.begin(), all.end(), [&](const PotentialSetting& s) { return s.option == name; });
 }
 
-LoadedState load_arrays(const State& state, StateRole role, const InputOptions& input, const Progress& progress) {
-  refuse_options_of_files(
-      input, role, state.molecule.name + " is a state of arrays; give it the atoms and charges that it is to have");
+/// A state of arrays, selected and charged as a structure file is. Where charges are made, water is dropped, as of
+/// files.
+LoadedState load_arrays(const State& state, const StateRequest& request, bool drops_water, const InputOptions& input,
+                        const Progress& progress) {
+  for (const auto& [name, text] : {std::pair("assembly", &input.assembly),
+                                   {"topology", &input.both.topology},
+                                   {"source-topology", &input.source.topology},
+                                   {"target-topology", &input.target.topology}}) {
+    if (!text->empty())
+      throw InputError(option(name) + " is of structures in files, and " + state.molecule.name +
+                       " is a state of arrays; give it the atoms and charges that it is to have");
+  }
   LoadedState loaded = loaded_arrays(state);
-  StateRequest request;
-  request.role = role;
-  request.may_prepare = false;
-  if (!input.charges_from.empty()) charge_molecule(loaded.molecule, input, request, loaded.charge_files, progress);
+  if (drops_water && !has_charges(loaded.molecule)) {
+    loaded.molecule = keep_kinds(loaded.molecule, {1, true, false, {}});
+    loaded.everything = {};
+  }
+  select_and_charge(loaded, request, input, progress);
   return loaded;
+}
+
+/// As load_for() does for files.
+LoadedState load_arrays_for(const PotentialRequest& asked, const State& state, StateRequest request,
+                            const InputOptions& input, const Progress& progress) {
+  const bool is_auto = asked.potential == "auto";
+  request.wants_charges = state.map == nullptr && asked.potential != "none";
+  request.may_prepare = !is_auto || !find_pdb2pqr().empty();
+  try {
+    return load_arrays(state, request, request.wants_charges, input, progress);
+  } catch (const InputError& error) {
+    if (!is_auto || !request.wants_charges) throw;
+    // Was it the preparation?
+    request.wants_charges = false;
+    load_arrays(state, request, false, input, progress);
+    throw InputError(error.message() + "; " + option("potential", "none") + " compares shapes alone");
+  }
 }
 
 }  // namespace
@@ -55,9 +84,9 @@ std::unique_ptr<Engine> Computation::make_engine() const { return select_engine(
 LoadedState load(const State& state, StateRole role, const Computation& computation, const Molecule* source,
                  const Progress& progress) {
   const InputOptions& input = computation.options.input;
-  if (state.file == nullptr) return load_arrays(state, role, input, progress);
   StateRequest request{state.structure, role};
   request.source = source;
+  if (state.file == nullptr) return load_arrays_for(computation.potential, state, request, input, progress);
   return load_for(computation.potential, state.map == nullptr, *state.file, request, input, progress);
 }
 
@@ -68,9 +97,11 @@ LoadedState load_target(const State& state, const Computation& computation, cons
   if (state.file != nullptr && state.map == nullptr)
     return load_frame(*state.file, state.structure, name, source.molecule, source.preparation.has_value(), input,
                       progress);
-  LoadedState loaded = load(state, StateRole::kTarget, computation, &source.molecule, progress);
-  if (state.map == nullptr && loaded.molecule.charges.empty() && !source.molecule.charges.empty())
-    take_values(loaded.molecule, source.molecule, name);
+  if (state.file != nullptr) return load(state, StateRole::kTarget, computation, &source.molecule, progress);
+  const bool like_source = state.map == nullptr && has_charges(source.molecule);
+  const StateRequest request{state.structure, StateRole::kTarget, false, true, &source.molecule};
+  LoadedState loaded = load_arrays(state, request, like_source, input, progress);
+  if (like_source) charge_frame(loaded, source.molecule, source.preparation.has_value(), request, input, progress);
   return loaded;
 }
 
@@ -84,7 +115,11 @@ PotentialPlan plan_potential(const Computation& computation, const std::vector<c
   }
   std::vector<PotentialFacts> facts;
   for (const LoadedState* state : loaded) facts.push_back(facts_of(*state));
-  return {asked, facts, computation.options.temperature_K};
+  PotentialPlan plan(asked, facts, computation.options.temperature_K);
+  // NaN for every difference would look like an answer.
+  if (!plan.computes() && asked.potential != "none")
+    throw InputError(plan.because() + "; " + option("potential", "none") + " compares shapes alone");
+  return plan;
 }
 
 CompareInput side_of(const State& state, const LoadedState& loaded, const PotentialPlan& plan, const std::string& role,
@@ -107,6 +142,11 @@ void note_inputs(const State& state, const LoadedState& loaded, const std::strin
   input.role = role;
   const std::vector<InputFile> files = state_inputs(role, input, loaded);
   inputs.insert(inputs.end(), files.begin(), files.end());
+}
+
+void note_preparation(const std::string& role, const LoadedState& loaded, Provenance& provenance) {
+  if (!loaded.preparation) return;
+  provenance.preparations.emplace_back(role, std::make_shared<Preparation>(*loaded.preparation));
 }
 
 Provenance provenance_of(const Engine& engine, const std::string& call, std::vector<InputFile> inputs) {

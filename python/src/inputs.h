@@ -32,22 +32,23 @@ struct Computation {
   std::unique_ptr<Engine> make_engine() const;
 };
 
-/// A state as it is compared: of a file read, selected and charged as the command line does; of arrays as it is.
+/// A state as it is compared: read, selected and charged as the command line does. Arrays that have charges keep them;
+/// others get them from PDB2PQR as files do.
 /// @param source the loaded source, for a target
-/// @throws as load_for(); InputError (an option of structures in files for a state of arrays)
+/// @throws as load_for(); InputError (assembly or topology for a state of arrays)
 LoadedState load(const State& state, StateRole role, const Computation& computation, const Molecule* source,
                  const Progress& progress);
 
 /// A state of arrays, as it is.
 LoadedState loaded_arrays(const State& state);
 
-/// A frame against a source, as load_frame(): without charges of its own it takes the source's.
+/// A frame against a source, as load_frame(): without charges of its own it takes the source's, or is prepared like it.
 /// @throws as load_frame(), load()
 LoadedState load_target(const State& state, const Computation& computation, const LoadedState& source,
                         const Progress& progress);
 
 /// The potential of states that are compared; none where maps are given.
-/// @throws InputError as PotentialPlan; maps and options of computed potentials were given
+/// @throws InputError as PotentialPlan; maps and options of computed potentials were given; `auto` finds no charges
 PotentialPlan plan_potential(const Computation& computation, const std::vector<const State*>& states,
                              const std::vector<const LoadedState*>& loaded);
 
@@ -59,6 +60,9 @@ CompareInput side_of(const State& state, const LoadedState& loaded, const Potent
 /// Where a state comes from.
 void note_inputs(const State& state, const LoadedState& loaded, const std::string& role,
                  std::vector<InputFile>& inputs);
+
+/// Where PDB2PQR made the charges, the result tells what it did.
+void note_preparation(const std::string& role, const LoadedState& loaded, Provenance& provenance);
 
 /// What made a result.
 /// @param inputs in any order; the result has the structures first, then the maps

@@ -4,6 +4,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include "arrays.h"
 #include "base/version.h"
 #include "command_line.h"
 #include "compare/options.h"
@@ -13,9 +14,14 @@
 #include "ensemble.h"
 #include "errors.h"
 #include "frames.h"
+#include "io/read_vtp.h"
 #include "matrix.h"
+#include "page/report_page.h"
+#include "plot/automatic_range.h"
+#include "plot/colour_map.h"
 #include "potential.h"
 #include "potential/potential_settings.h"
+#include "prepare.h"
 #include "report/metrics.h"
 #include "series.h"
 #include "state.h"
@@ -25,23 +31,39 @@ namespace nb = nanobind;
 
 namespace {
 
+const char* word_of(espdiff::SettingKind kind) {
+  switch (kind) {
+    case espdiff::SettingKind::kNumber: return "number";
+    case espdiff::SettingKind::kInteger: return "integer";
+    case espdiff::SettingKind::kBoolean: return "boolean";
+    case espdiff::SettingKind::kChoice: return "choice";
+    case espdiff::SettingKind::kText: break;
+  }
+  return "text";
+}
+
 /// Name, kind, choices, default and help of every option.
 nb::list list_settings() {
   nb::list rows;
   const espdiff::CompareOptions defaults;
   const auto add = [&](const std::string& name, const std::string& group, const std::vector<std::string>& choices,
-                       const std::string& value, const std::string& help) {
+                       const std::string& value, const std::string& help, const char* kind, const std::string& key) {
     nb::dict row;
     row["name"] = name;
+    row["key"] = key;
+    row["kind"] = kind;
     row["group"] = group;
     row["choices"] = choices;
     row["default"] = value;
     row["help"] = help;
     rows.append(row);
   };
-  for (const espdiff::Setting& s : espdiff::settings()) add(s.name, s.group, s.choices, s.get(defaults), s.help);
+  for (const espdiff::Setting& s : espdiff::settings()) {
+    const char* const kind = s.is_named ? "named" : s.is_list ? "list" : word_of(s.kind);
+    add(s.name, s.group, s.choices, s.get(defaults), s.help, kind, s.name == espdiff::kThesisSetting ? "" : s.key());
+  }
   for (const espdiff::PotentialSetting& s : espdiff::potential_settings())
-    add(s.option, "Potentials", s.choices, "", s.help);
+    add(s.option, "Potentials", s.choices, "", s.help, word_of(s.kind), "");
   return rows;
 }
 
@@ -53,9 +75,49 @@ nb::list list_metrics() {
     row["label"] = m.label;
     row["unit"] = espdiff::unit_of(m, "potential");
     row["help"] = m.help;
+    row["kind"] = m.unit == espdiff::MetricUnit::kCount ? "count" : "number";
+    row["json"] = m.json_pointer();
+    row["has_result"] = m.has_result();
+    const espdiff::ShownUnit shown = espdiff::shown_unit(m, "potential");
+    row["shown_unit"] = shown.unit;
+    row["shown_factor"] = shown.factor;
     rows.append(row);
   }
   return rows;
+}
+
+nb::list signed_colours(int n) {
+  nb::list colours;
+  for (int i = 0; i < n; ++i) {
+    const espdiff::Rgb c = espdiff::diverging_colour((i + 0.5) / n, espdiff::kRedBlue);
+    colours.append(nb::make_tuple(c.red, c.green, c.blue));
+  }
+  return colours;
+}
+
+nb::object numbers(const espdiff::VtpNumbers& array) {
+  const nb::object flat = espdiff::python::array_from(std::vector<double>(array.values));
+  return array.n_components == 1 ? flat : nb::object(flat.attr("reshape")(-1, array.n_components));
+}
+
+/// As Comparison.surface_arrays(), of a file; all numbers are float64.
+nb::dict read_surface(const std::string& path) {
+  const espdiff::VtpContent content = espdiff::read_vtp(path);
+  nb::dict all, points, cells, texts;
+  for (const espdiff::VtpNumbers& array : content.point_arrays) points[array.name.c_str()] = numbers(array);
+  for (const espdiff::VtpNumbers& array : content.cell_arrays) cells[array.name.c_str()] = numbers(array);
+  for (const auto& [name, text] : content.texts) texts[name.c_str()] = text;
+  std::vector<double> positions, corners;
+  for (const espdiff::Vec3d& p : content.positions) positions.insert(positions.end(), {p.x, p.y, p.z});
+  for (const espdiff::Triangle& t : content.triangles) {
+    for (const auto corner : t) corners.push_back(static_cast<double>(corner));
+  }
+  all["positions"] = nb::object(espdiff::python::array_from(std::move(positions)).attr("reshape")(-1, 3));
+  all["triangles"] = nb::object(espdiff::python::array_from(std::move(corners)).attr("reshape")(-1, 3));
+  all["points"] = points;
+  all["cells"] = cells;
+  all["texts"] = texts;
+  return all;
 }
 
 nb::dict status() {
@@ -83,11 +145,25 @@ NB_MODULE(_core, module) {
   espdiff::python::add_series(module);
   espdiff::python::add_surface(module);
   espdiff::python::add_potential(module);
+  espdiff::python::add_prepare(module);
   espdiff::python::add_matrix(module);
   espdiff::python::add_ensemble(module);
   espdiff::python::add_command_line(module);
   module.def("settings", &list_settings,
-             "Every option of compare() and its like: name, group, choices, default, help.");
+             "Every option of compare() and its like: name, kind, its key in OUT.json, group, choices, default, help.");
+  module.def("automatic_limit", &espdiff::automatic_limit, nb::arg("values"), nb::arg("percentile") = 90.0,
+             "The end of a colour scale when none is given, as of all pictures.");
+  module.def("signed_colours", &signed_colours, nb::arg("n"),
+             "n colours (red, green, blue; 0 to 255) from the lowest value to the highest, as pictures have them.");
+  module.def(
+      "report_page",
+      [](const std::string& prefix, const std::string& title) {
+        const nb::gil_scoped_release unlocked;
+        return espdiff::report_page(prefix, title);
+      },
+      nb::arg("prefix"), nb::arg("title"), "PREFIX.json, .vtp and .residues.csv as one page for any browser.");
+  module.def("read_surface", &read_surface, nb::arg("path"),
+             "What a VTP file holds: positions, triangles, points, cells, texts. Raises IoError, FormatError.");
   module.def("metrics", &list_metrics, "Every number of a comparison: name, label, unit, help.");
   module.def("status", &status, "Which back ends there are.");
 }

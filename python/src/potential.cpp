@@ -1,6 +1,7 @@
 // potential.cpp: potential(): a map of one molecule's charges.
 #include "potential.h"
 
+#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
@@ -72,9 +73,9 @@ void add_potential(nb::module_& module) {
       .def_prop_ro("periodic", [](const PyMap& m) { return m.grid.periodic; })
       .def(
           "save",
-          [](const PyMap& m, const std::string& path) {
+          [](const PyMap& m, const std::filesystem::path& path) {
             const nb::gil_scoped_release unlocked;
-            AtomicFile file(path);
+            AtomicFile file(path.string());
             write_map(file, m.grid);
             file.commit();
           },

@@ -46,6 +46,8 @@ class PySeries {
       const CompareInput side = side_of(*target, loaded, plan_, "target", inputs);
       set_surface_radii({&loaded.molecule}, computation_.options.input.radii);
       made->provenance = provenance_of(*engine_, call_, std::move(inputs));
+      note_preparation("source", loaded_, made->provenance);
+      note_preparation("target", loaded, made->provenance);
       made->result = series_->step(side, start_, told);
       if (!made->result.has_potential) made->result.shapes_because = plan_.because();
       made->source_molecule = surface_;

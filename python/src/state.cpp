@@ -12,11 +12,14 @@
 
 #include "arrays.h"
 #include "base/error.h"
+#include "io/atomic_file.h"
 #include "io/elements.h"
 #include "io/molecule_builder.h"
 #include "io/read_grid.h"
+#include "io/select_atoms.h"
 #include "io/sha256.h"
 #include "io/structure_file.h"
+#include "io/write_pqr.h"
 #include "state_parts.h"
 
 namespace espdiff::python {
@@ -133,6 +136,30 @@ StatePtr surrounded_by(const State& state, const StatePtr& everything) {
   return copy;
 }
 
+StatePtr without_water(const State& state) {
+  auto copy = std::make_shared<State>(state);
+  copy->molecule = keep_kinds(state.molecule, {1, true, false, {}});
+  note_input(*copy);
+  return copy;
+}
+
+StatePtr with_preparation(const State& state, const std::string& json) {
+  auto copy = std::make_shared<State>(state);
+  copy->preparation = json;
+  return copy;
+}
+
+void save_pqr(const State& state, const std::filesystem::path& path) {
+  if (state.molecule.charges.empty() || state.molecule.radii.empty())
+    throw InputError(state.molecule.name +
+                     ": a PQR file has charges and radii, and the state lacks them; "
+                     "espdiff.prepare(state) adds them");
+  const nb::gil_scoped_release unlocked;
+  AtomicFile file(path.string());
+  write_pqr(file.stream(), state.molecule);
+  file.commit();
+}
+
 StatePtr with_map_file(const State& state, const std::string& path, const std::string& unit, const std::string& array) {
   auto copy = std::make_shared<State>(state);
   GridOptions options;
@@ -226,6 +253,16 @@ void add_state(nb::module_& module) {
            "The same molecule with the potential of a map file: DX, VTI or cube.")
       .def("with_map", &with_map, nb::arg("values"), nb::arg("origin"), nb::arg("step"), nb::arg("unit") = "kT/e",
            "The same molecule with a potential: values (nx, ny, nz), origin and step in A.")
+      .def("without_water", &without_water, "The same atoms without water, as files are read.")
+      .def("save", &save_pqr, nb::arg("path"), "Writes a PQR file; raises IoError, and InputError without charges.")
+      .def_prop_ro(
+          "preparation",
+          [](const State& s) -> nb::object {
+            if (s.preparation.empty()) return nb::none();
+            return nb::module_::import_("json").attr("loads")(s.preparation);
+          },
+          "What PDB2PQR did: the dict of OUT.json; None where it did not run.")
+      .def("_with_preparation", &with_preparation)
       .def("_parts", &parts_of, "What another process makes the same state of.")
       .def("__len__", [](const State& s) { return s.molecule.size(); })
       .def("__repr__",

@@ -29,6 +29,7 @@ struct State {
   std::optional<UnitCell> cell;  ///< of arrays
   std::shared_ptr<const Grid> map;
   InputFile input, map_input;  ///< without roles
+  std::string preparation;     ///< what PDB2PQR did, as in OUT.json; empty where it did not run
   bool map_from_file = false;
   std::string map_array;  ///< of a file that has several
 };

@@ -75,6 +75,7 @@ nb::dict parts_of(const State& state) {
   } else {
     parts["arrays"] = arrays_of(state.molecule, state.cell);
   }
+  if (!state.preparation.empty()) parts["preparation"] = state.preparation;
   if (state.everything != nullptr) {
     parts["everything"] = arrays_of(*state.everything, state.cell);
   }

@@ -1,6 +1,7 @@
 // surface.cpp: surface(): one molecule's surface, with its potential.
 #include "compare/surface.h"
 
+#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
@@ -68,9 +69,9 @@ void add_surface(nb::module_& module) {
           "area", [](const PySurface& s) { return s.result.summary.area_A2; }, "A^2.")
       .def(
           "save",
-          [](const PySurface& s, const std::string& path) {
+          [](const PySurface& s, const std::filesystem::path& path) {
             const nb::gil_scoped_release unlocked;
-            write_surface(path, s.molecule, s.result, s.result.unit);
+            write_surface(path.string(), s.molecule, s.result, s.result.unit);
           },
           nb::arg("path"), "Writes a VTP file. Raises IoError.");
   module.def("surface", &make_py_surface, nb::arg("state"), nb::arg("settings"), nb::arg("potential"),

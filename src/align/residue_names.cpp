@@ -105,6 +105,7 @@ std::string normalized_atom_name(const std::string& atom_name, char letter) {
   }
   if (letter == 'I' && name == "CD") return "CD1";
   if (letter == 'I' && name.size() == 3 && name.compare(0, 2, "HD") == 0) return "HD1" + name.substr(2);
+  if (letter == 't' && name == "C5M") return "C7";  // thymine's methyl group before 2007
   static const std::unordered_map<std::string_view, const char*> synonyms = {
       {"HN", "H"},  {"HT1", "H1"},  {"HT2", "H2"}, {"HT3", "H3"},  {"HN1", "H1"},  {"HN2", "H2"},  {"HN3", "H3"},
       {"OT1", "O"}, {"OT2", "OXT"}, {"OT", "OXT"}, {"O1P", "OP1"}, {"O2P", "OP2"}, {"O5T", "O5'"}, {"O3T", "O3'"}};

@@ -117,6 +117,16 @@ std::string ResidueChange::name(bool with_chain) const {
   return with_chain && !residue.chain.empty() ? text + " " + residue.chain : text;
 }
 
+double SideChainShift::least() const { return *std::min_element(shifts.begin(), shifts.end()); }
+double SideChainShift::most() const { return *std::max_element(shifts.begin(), shifts.end()); }
+
+double ScannedResidue::largest() const {
+  double size = 0;
+  for (const double shift : {removed_source, removed_target, plus_source, plus_target})
+    size = std::fmax(size, std::fabs(shift));
+  return size;
+}
+
 void add_reading(Causes& causes, const std::string& name, const StateReading& source, const StateReading& target) {
   CausesOfReading reading;
   reading.name = name;

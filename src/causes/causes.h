@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,11 +75,50 @@ struct Contribution {
   double difference() const { return target - source; }
 };
 
+/// How a reading would shift if one residue's charges changed, with the shape and all other charges kept, kT/e; NaN in
+/// a state that lacks the residue.
+struct ScannedResidue {
+  std::size_t change = 0;
+  double distance_A = 0;
+  double removed_source = 0, removed_target = 0;  ///< without its charges
+  /// With one elementary charge more at its charges' centre; one less shifts by the opposite.
+  double plus_source = 0, plus_target = 0;
+
+  double largest() const;  ///< the size of the largest shift
+};
+
+/// How far the placements of one side chain shift the reading of its state, kT/e.
+struct SideChainShift {
+  std::size_t change = 0;
+  bool of_target = false;
+  std::vector<std::vector<double>> angles{};  ///< [placement][dihedral angle] degrees; the file's first
+  std::vector<double> shifts{};               ///< [placement]
+  std::size_t n_refused = 0;                  ///< of the grid, since they clash
+
+  double least() const;
+  double most() const;
+};
+
+/// The difference with side chains in other places; for means of differences, not of their sizes.
+struct PlacementInterval {
+  std::size_t n_draws = 0;
+  std::uint64_t seed = 0;
+  bool is_exact = false;        ///< at the same points; otherwise to first order, with the solute's shape kept
+  double low = 0, high = 0;     ///< 2.5 % and 97.5 % of the draws
+  double mean = 0, sd = 0;      ///< of the draws
+  std::vector<double> draws{};  ///< [draw] the difference
+  std::vector<SideChainShift> side_chains{};  ///< the largest range first
+
+  bool spans_zero() const { return low < 0 && high > 0; }
+};
+
 struct CausesOfReading {
   std::string name;                             ///< as it was asked for: "patch site"
   double source = 0, target = 0;                ///< kT/e, as sampled
   double sum_of_source = 0, sum_of_target = 0;  ///< of the contributions
   std::vector<Contribution> contributions;      ///< by size of the difference, the largest first
+  std::vector<ScannedResidue> scan{};           ///< by size of the largest shift; empty unless asked for
+  std::optional<PlacementInterval> placements{};
 
   double difference() const { return target - source; }
 };

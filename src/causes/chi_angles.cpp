@@ -10,7 +10,30 @@
 namespace espdiff {
 namespace {
 
-/// Atoms of the chain of bonds N, CA, CB, ... by one-letter code: angle k is about the bond of atoms k + 1 and k + 2.
+std::optional<Vec3d> place_of(const Molecule& m, const std::vector<std::size_t>& atoms, const std::string& name) {
+  for (const std::size_t i : atoms) {
+    const char letter = residue_letter(m.residues[static_cast<std::size_t>(m.atoms[i].residue)].name);
+    if (normalized_atom_name(m.atoms[i].name, letter) == name) return m.positions[i];
+  }
+  return std::nullopt;
+}
+
+/// [angle] degrees, as far as the atoms are there.
+std::vector<double> chi_angles(const Molecule& m, const std::vector<std::size_t>& atoms, char letter) {
+  std::vector<Vec3d> places;
+  for (const std::string& name : side_chain_bonds(letter)) {
+    const std::optional<Vec3d> place = place_of(m, atoms, name);
+    if (!place) break;
+    places.push_back(*place);
+  }
+  std::vector<double> angles;
+  for (std::size_t i = 3; i < places.size(); ++i)
+    angles.push_back(dihedral(places[i - 3], places[i - 2], places[i - 1], places[i]));
+  return angles;
+}
+
+}  // namespace
+
 std::vector<std::string> side_chain_bonds(char letter) {
   switch (letter) {
     case 'R': return {"N", "CA", "CB", "CG", "CD", "NE", "CZ"};
@@ -34,37 +57,12 @@ std::vector<std::string> side_chain_bonds(char letter) {
   }
 }
 
-/// Whether half a turn about the last bond exchanges equal atoms.
-bool is_symmetric(char letter) { return letter == 'D' || letter == 'E' || letter == 'F' || letter == 'Y'; }
-
-std::optional<Vec3d> place_of(const Molecule& m, const std::vector<std::size_t>& atoms, const std::string& name) {
-  for (const std::size_t i : atoms) {
-    const char letter = residue_letter(m.residues[static_cast<std::size_t>(m.atoms[i].residue)].name);
-    if (normalized_atom_name(m.atoms[i].name, letter) == name) return m.positions[i];
-  }
-  return std::nullopt;
-}
+bool is_symmetric_end(char letter) { return letter == 'D' || letter == 'E' || letter == 'F' || letter == 'Y'; }
 
 double dihedral(Vec3d a, Vec3d b, Vec3d c, Vec3d d) {
   const Vec3d along = c - b, first = cross(b - a, along), second = cross(along, d - c);
   return std::atan2(norm(along) * dot(b - a, second), dot(first, second)) * 180 / kPi;
 }
-
-/// [angle] degrees, as far as the atoms are there.
-std::vector<double> chi_angles(const Molecule& m, const std::vector<std::size_t>& atoms, char letter) {
-  std::vector<Vec3d> places;
-  for (const std::string& name : side_chain_bonds(letter)) {
-    const std::optional<Vec3d> place = place_of(m, atoms, name);
-    if (!place) break;
-    places.push_back(*place);
-  }
-  std::vector<double> angles;
-  for (std::size_t i = 3; i < places.size(); ++i)
-    angles.push_back(dihedral(places[i - 3], places[i - 2], places[i - 1], places[i]));
-  return angles;
-}
-
-}  // namespace
 
 ChiTurn chi_turn(const Molecule& source, const std::vector<std::size_t>& source_atoms, const Molecule& target,
                  const std::vector<std::size_t>& target_atoms, double least) {
@@ -79,7 +77,7 @@ ChiTurn chi_turn(const Molecule& source, const std::vector<std::size_t>& source_
   ChiTurn turn;
   for (std::size_t k = 0; k < a.size() && k < b.size(); ++k) {
     double angle = std::fabs(std::remainder(b[k] - a[k], 360.0));
-    if (is_symmetric(letter) && k + 4 == n_all) angle = std::min(angle, 180 - angle);
+    if (is_symmetric_end(letter) && k + 4 == n_all) angle = std::min(angle, 180 - angle);
     if (turn.chi == 0 || angle > turn.angle) turn = {static_cast<int>(k) + 1, angle};
     if (angle > least) return turn;
   }

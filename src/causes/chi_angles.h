@@ -2,11 +2,20 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "base/types.h"
 
 namespace espdiff {
+
+/// Atoms of the chain of bonds N, CA, CB, ... by one-letter code: angle k, from 1, is about the bond of atoms k and
+/// k + 1, counted from 0. Empty for a residue without such angles.
+std::vector<std::string> side_chain_bonds(char letter);
+/// Whether half a turn about the last bond exchanges equal atoms.
+bool is_symmetric_end(char letter);
+/// Degrees, -180 to 180 (IUPAC: positive clockwise, seen along the bond b to c).
+double dihedral(Vec3d a, Vec3d b, Vec3d c, Vec3d d);
 
 /// The largest turn of a side chain between two states.
 struct ChiTurn {

@@ -91,8 +91,9 @@ int run(int argc, char** argv) {
 #endif
       espdiff::cli::add_merge(app),     espdiff::cli::add_plot(app),       espdiff::cli::add_surface(app),
       espdiff::cli::add_potential(app), espdiff::cli::add_prepare(app),    espdiff::cli::add_render(app),
-      espdiff::cli::add_report(app),    espdiff::cli::add_view(app),       espdiff::cli::add_verify(app),
-      espdiff::cli::add_doctor(app),    espdiff::cli::add_completion(app), espdiff::cli::add_man(app)};
+      espdiff::cli::add_report(app),    espdiff::cli::add_export(app),     espdiff::cli::add_view(app),
+      espdiff::cli::add_verify(app),    espdiff::cli::add_doctor(app),     espdiff::cli::add_completion(app),
+      espdiff::cli::add_man(app)};
   try {
     std::vector<std::string> words = espdiff::cli::understood({argv + std::min(argc, 1), argv + argc}, app);
     std::reverse(words.begin(), words.end());  // as CLI11 takes a vector

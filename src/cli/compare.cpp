@@ -129,7 +129,7 @@ void check_files(const CompareArguments& a, const CompareOptions& options, const
   std::vector<std::string> inputs = input_files(options.input),
                            outputs = {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb};
   inputs.insert(inputs.end(), {a.source, a.target, a.maps.source_map, a.maps.target_map});
-  if (!options.causes.empty()) outputs.push_back(a.output + kCausesEnding);
+  for (const std::string& ending : cause_endings(options)) outputs.push_back(a.output + ending);
   for (const std::string& ending : kept) outputs.push_back(a.output + ending);
   check_outputs(inputs, outputs);
 }
@@ -236,11 +236,11 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
   check_files(a, options, {});
-  if (!a.overwrite) refuse_existing(a.output);
   // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
-  if (!options.causes.empty()) AtomicFile probe(a.output + kCausesEnding);
+  for (const std::string& ending : cause_endings(options)) AtomicFile probe(a.output + ending);
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
+  if (!a.overwrite) refuse_existing(a.output);
   if (a.residue_pdb.empty() && !a.residue_quantity.empty())
     throw InputError("--residue-quantity needs --residue-pdb FILE");
 
@@ -283,16 +283,17 @@ Verb add_compare(CLI::App& app) {
       "there, and\n"
       "certifies the mapping. Without maps the potentials are computed (--potential).\n\n"
       "Writes result.json (numbers, certificate, provenance), result.vtp (mapped surface, for ParaView) and "
-      "result.residues.csv,\nwith --causes result.causes.csv.\n"
-      "Exit status: 0 done, 1 could not compute, 2 wrong usage or input, 3 done, and the result is not trusted (0 with "
-      "--exit-zero).");
+      "result.residues.csv,\nwith --causes result.causes.csv, with --scan result.scan.csv, with --side-chains "
+      "result.side-chains.csv.\n"
+      "Exit status: 0 done, 1 could not compute, 2 wrong usage or input, 3 done, and the result is NOT TRUSTWORTHY (0 "
+      "with --exit-zero).\nA result that is TRUSTWORTHY ON a part of the surface is 0, unless --require asks for more.");
   add_input_options(*parser, *arguments);
   add_structure_options(*parser, arguments->structure);
   add_settings(*parser, arguments->settings, SettingsFor::kPair);
   add_device_options(*parser, arguments->device);
   parser->add_flag("-q,--quiet", arguments->quiet, "Print the verdict and the main number only");
   parser->add_flag("--overwrite", arguments->overwrite, "Replace a result of this name, if there is one");
-  parser->add_flag("--exit-zero", arguments->exit_zero, "Exit status 0, not 3, for a result that is not trusted");
+  parser->add_flag("--exit-zero", arguments->exit_zero, "Exit status 0, not 3, for a result that is NOT TRUSTWORTHY");
   parser->add_flag("--no-trials", arguments->no_trials,
                    "Do not try other commands after a result that is not trusted; without it those that take seconds "
                    "are tried, and the one that helps is printed");

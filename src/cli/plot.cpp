@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "cli/help.h"
+#include "cli/plot_pair.h"
 #include "cli/verbs.h"
 #include "io/check_outputs.h"
 #include "io/read_csv.h"
@@ -21,7 +22,8 @@ namespace espdiff::cli {
 namespace {
 
 struct PlotArguments {
-  std::string input, output, source, order = "given", x, title;
+  std::string input, output, source, order = "given", x, title, kind = "bars";
+  int top = 20;
   std::vector<std::string> metrics;
   std::vector<double> range;
   bool both_ways = false, normalize = false, no_marks = false;
@@ -218,7 +220,8 @@ std::vector<CausePanel> cause_panels(const CsvTable& table) {
   return panels;
 }
 
-int plot_verb(const PlotArguments& a, const Context&) {
+int plot_verb(PlotArguments& a, const Context&) {
+  a.input = file_to_plot(a.input);
   const PictureFormat format = picture_format(a.output);
   check_outputs({a.input}, {a.output});
   const bool is_json = lower_case(a.input).size() > 5 && lower_case(a.input).substr(a.input.size() - 5) == ".json";
@@ -228,6 +231,14 @@ int plot_verb(const PlotArguments& a, const Context&) {
     return 0;
   }
   const CsvTable table = is_json ? CsvTable() : read_csv(a.input);
+  if (!is_json && is_pair_table(table)) {
+    if (a.normalize || !a.metrics.empty() || !a.x.empty() || !a.range.empty())
+      throw InputError("--normalize, --metric, --x and --range are of other tables, and " + a.input +
+                       " is one of a comparison's residues");
+    const StatePlot plot = state_plot(table, a.kind == "bars", static_cast<std::size_t>(a.top), a.title);
+    write_picture(a.output, a.kind == "bars" ? state_bars_script(plot, format) : state_scatter_script(plot, format));
+    return 0;
+  }
   if (!is_json && is_residue_table(table)) {
     if (a.normalize || !a.metrics.empty() || !a.x.empty())
       throw InputError("--normalize, --metric and --x are for lines, and " + a.input + " is a table of residues");
@@ -263,12 +274,20 @@ Verb add_plot(CLI::App& app) {
       "such as "
       "a\ntrajectory's, becomes lines along its frames, and its table of residues a map, a row a residue. A "
       "comparison's OUT.causes.csv becomes bars.\nDrawn by gnuplot; text stays text in an SVG.");
-  parser->add_option("FILE", a->input, "OUT.json of a matrix, or a CSV file")->required();
+  parser->add_option("FILE", a->input, "A result: its prefix OUT, OUT.json, OUT.vtp, or a CSV file")->required();
   parser->add_option("-o,--output", a->output, "Picture to write (.png or .svg)")->required();
   parser->add_option("--metric", a->metrics,
                      "Columns to draw; several for lines (default: the clustering metric; for a "
                      "trajectory mean_abs_difference)");
   parser->add_option("--title", a->title, "Title of a plot of lines");
+  parser->add_option("--kind", a->kind, "Residues of a comparison as signed bars with both states, or as a scatter")
+      ->check(CLI::IsMember({"bars", "scatter"}))
+      ->capture_default_str()
+      ->group("Comparison");
+  parser->add_option("--top", a->top, "Number of residues as bars, those that differ most; 0 for all, in file order")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str()
+      ->group("Comparison");
   parser->add_option("--order", a->order, "Order of a heat map; dendrogram draws the clustering too")
       ->check(CLI::IsMember({"given", "dendrogram"}))
       ->capture_default_str()
@@ -284,7 +303,8 @@ Verb add_plot(CLI::App& app) {
   parser->add_option("--x", a->x, "Column of a CSV file that is the x axis (frame)")->group("Lines");
   parser->add_flag("--no-marks", a->no_marks, "Do not mark results that are not trustworthy");
   set_help(*parser, {"",
-                     {"espdiff plot ubiquitin.json --order dendrogram -o map.svg",
+                     {"espdiff plot ldh -o ldh.svg", "espdiff plot ldh --kind scatter -o scatter.svg",
+                      "espdiff plot ubiquitin.json --order dendrogram -o map.svg",
                       "espdiff plot ubiquitin.json --source m00 --metric mean_abs_difference --normalize -o m00.png",
                       "espdiff plot adk.csv --metric mean_displacement_A --metric rmsd_A -o adk.svg",
                       "espdiff plot adk.residues.csv -o residues.png", "espdiff plot ldh.causes.csv -o causes.svg"}});

@@ -5,10 +5,13 @@
 #include "io/atomic_file.h"
 #if defined(ESPDIFF_HAVE_VTK)
 #include <cstdio>
+#include <filesystem>
 
+#include "base/error.h"
 #include "base/printable.h"
 #include "cli/scene_options.h"
 #include "io/check_outputs.h"
+#include "io/text_cursor.h"
 #include "view/render_surface.h"
 #endif
 
@@ -22,7 +25,16 @@ struct RenderArguments {
   SceneArguments scene;
 };
 
+/// A surface is pixels; what is named otherwise would not be what its name says.
+void require_png(const std::string& path) {
+  const std::string ending = lower_case(std::filesystem::path(path).extension().string());
+  if (ending == ".png") return;
+  throw InputError(path + ": surfaces are drawn as PNG; name it .png (larger: " + option("width", "3600") +
+                   "), and take `espdiff plot` for lines and bars as .svg");
+}
+
 int render_verb(RenderArguments& a, const Context& context) {
+  require_png(a.output);
   const Scene scene = scene_of(a.scene);
   check_outputs({a.input, a.scene.scene_file}, {a.output, a.scene.saved_scene});
   const std::unique_ptr<AtomicFile> saved = saved_scene_of(a.scene, scene);

@@ -8,6 +8,7 @@
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
 #include "page/report_page.h"
+#include "page/study_page.h"
 
 namespace espdiff::cli {
 namespace {
@@ -16,12 +17,21 @@ struct ReportArguments {
   std::string input, output, title;
 };
 
+/// OUT of a result that is named by it or by one of its files, a trajectory's OUT.csv among them.
+std::string report_prefix(const std::string& given) {
+  const std::string prefix = result_prefix(given), ending = ".csv";
+  const bool is_table = prefix.size() > ending.size() && prefix == given &&
+                        prefix.compare(prefix.size() - ending.size(), ending.size(), ending) == 0;
+  return is_table ? prefix.substr(0, prefix.size() - ending.size()) : prefix;
+}
+
 int report_verb(const ReportArguments& a, const Context& context) {
-  const std::string prefix = result_prefix(a.input), output = a.output.empty() ? prefix + ".html" : a.output;
-  check_outputs({prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"}, {output});
+  const std::string prefix = report_prefix(a.input), output = a.output.empty() ? prefix + ".html" : a.output;
+  const PageKind kind = page_kind(prefix);
+  check_outputs(page_inputs(prefix, kind), {output});
   context.progress->report("page", 0.0);
   AtomicFile file(output);
-  file.stream() << report_page(prefix, a.title);
+  file.stream() << (kind == PageKind::kPair ? report_page(prefix, a.title) : study_page(prefix, kind, a.title));
   file.commit();
   return 0;
 }
@@ -30,11 +40,14 @@ int report_verb(const ReportArguments& a, const Context& context) {
 
 Verb add_report(CLI::App& app) {
   auto a = std::make_shared<ReportArguments>();
-  CLI::App* parser = app.add_subcommand("report", "Write a comparison as one page for any browser, without network");
-  parser->add_option("OUT", a->input, "A result of compare: its prefix, OUT.json or OUT.vtp")->required();
+  CLI::App* parser = app.add_subcommand("report", "Write a result as one page for any browser, without network");
+  parser->add_option("OUT", a->input, "A result of compare, trajectory or matrix: its prefix, or one of its files")
+      ->required();
   parser->add_option("-o,--output", a->output, "Page to write; default: OUT.html")->type_name("FILE");
-  parser->add_option("--title", a->title, "Heading; default: the names of both structures");
-  set_help(*parser, {"", {"espdiff report ldh -o ldh.html --title 'LDH, double mutant against wild type'"}});
+  parser->add_option("--title", a->title, "Heading; default: the names of both structures, or OUT");
+  set_help(*parser, {"",
+                     {"espdiff report ldh -o ldh.html --title 'LDH, double mutant against wild type'",
+                      "espdiff report adk.csv"}});
   return {parser, [a](const Context& context) { return report_verb(*a, context); }};
 }
 

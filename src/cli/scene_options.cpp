@@ -1,6 +1,8 @@
 // scene_options.cpp: one row per option of a scene.
 #include "cli/scene_options.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "io/atomic_file.h"
 #include "io/text_cursor.h"
@@ -76,6 +78,20 @@ void add_context_options(CLI::App& p, SceneArguments& a) {
       ->check(CLI::IsMember({"none", "cartoon", "sticks", "lines"}));
   add<Number>(p, a, "--around", "Ligands, ions and water within this distance of the protein, Angstrom [none]",
               [](Scene& s, Number v) { s.around_A = v; });
+  add<Text>(
+      p, a, "--causes",
+      "A reading of --causes of the comparison, such as region: colour the source's molecule by what its residues "
+      "contribute, outline the reading's patch, and label the five largest [none]",
+      [](Scene& s, const Text& t) { s.causes = t; })
+      ->type_name("READING");
+  add<Text>(p, a, "--focus",
+            "Look at this part with its side chains, from one side: region, or the name of a fixed patch [none]",
+            [](Scene& s, const Text& t) {
+              s.focus = t;
+              s.n_views = 1;
+              s.opacity.greatest = std::min(s.opacity.greatest, 0.6);
+            })
+      ->type_name("REGION");
   add<int>(p, a, "--labels", "Label this many residues with the largest mean difference [0]",
            [](Scene& s, int v) { s.n_labels = v; });
   add<Numbers>(p, a, "--isopotential", "Isosurfaces of the potential at these values, such as -2,2",

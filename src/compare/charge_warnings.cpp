@@ -191,7 +191,7 @@ std::set<int> expected_charges(const std::string& name, const std::string& state
   return all;
 }
 
-std::string in_words(const std::set<int>& charges) {
+std::string charges_in_words(const std::set<int>& charges) {
   std::string text;
   for (const int charge : charges) text += (text.empty() ? "" : " or ") + std::to_string(charge);
   return text;
@@ -219,7 +219,7 @@ struct NetCharges {
       if (std::fabs(net - nearest) > kWholeCharge) {
         fractional.add(residue, elementary_charges(net));
       } else if (expected.count(static_cast<int>(nearest)) == 0) {
-        impossible.add(residue, elementary_charges(net) + ", not " + in_words(expected));
+        impossible.add(residue, elementary_charges(net) + ", not " + charges_in_words(expected));
       } else if (polymer.has_wrong_sign(k)) {
         turned.add(residue, "O " + elementary_charges(polymer.charge(polymer.backbone(k).o)));
       }

@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "base/printable.h"
 #include "base/surface_parts.h"
-#include "causes/reading.h"
 #include "compare/options.h"
 #include "compare/settings.h"
 
@@ -217,35 +216,6 @@ Setting patch_row() {
   return row;
 }
 
-/// A list of readings; setting it again adds to it.
-Setting causes_row() {
-  Setting row{
-      "causes",
-      kRegionGroup,
-      SettingKind::kText,
-      {},
-      "Which charges make the difference: of region, patch NAME, residue CHAIN:NUMBER (the mean difference over "
-      "its surface), or whole (the mean absolute difference). Writes OUT.causes.csv. Several may be given; of a "
-      "pair whose potentials are computed by a linear equation",
-      false,
-      nullptr,
-      nullptr};
-  row.set = [](CompareOptions& o, const std::string& text) {
-    std::istringstream list(text);
-    for (std::string reading; std::getline(list, reading, ',');) {
-      parse_reading(reading);
-      if (std::find(o.causes.begin(), o.causes.end(), reading) == o.causes.end()) o.causes.push_back(reading);
-    }
-  };
-  row.get = [](const CompareOptions& o) {
-    std::string text;
-    for (const std::string& reading : o.causes) text += (text.empty() ? "" : ",") + reading;
-    return text;
-  };
-  row.is_list = true;
-  return row;
-}
-
 void add_region_rows(std::vector<Setting>& all) {
   const char* const group = kRegionGroup;
   all.push_back(text_row(
@@ -259,7 +229,7 @@ void add_region_rows(std::vector<Setting>& all) {
       "of", group, [](auto& o) -> auto& { return o.region_of; },
       "Atoms that the region is near to, such as a ligand or another chain; they need not be compared"));
   all.push_back(patch_row());
-  all.push_back(causes_row());
+  add_cause_settings(all);
 }
 
 }  // namespace

@@ -14,6 +14,9 @@ struct Setting;
 /// Appends their rows to the table of settings.
 void add_input_settings(std::vector<Setting>& all);
 
+/// Those of the causes of a difference.
+void add_cause_settings(std::vector<Setting>& all);
+
 /// @throws InputError "--NAME: 'TEXT' is not ACCEPTED"
 [[noreturn]] void refuse_value(const std::string& name, const std::string& text, const std::string& accepted);
 

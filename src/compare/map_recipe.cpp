@@ -72,7 +72,8 @@ std::string potential_label(const MapRecipe& r) {
   if (r.method == PotentialMethod::kCoulomb)
     return is_vacuum(r) ? "vacuum (Coulomb)" : "Coulomb, " + of_dielectric(r.coulomb);
   const std::string part = r.pme.part == PmePart::kFull ? "" : ", smooth part";
-  return r.has_water ? "PME with explicit water" + part : "vacuum (PME without water" + part + ")";
+  const std::string frames = r.n_frames > 1 ? ", mean over " + std::to_string(r.n_frames) + " frames" : "";
+  return r.has_water ? "PME with explicit water" + part + frames : "vacuum (PME without water" + part + frames + ")";
 }
 
 std::vector<std::string> potential_notes(const MapRecipe* source, const MapRecipe* target) {

@@ -24,6 +24,7 @@ struct MapRecipe {
   std::size_t n_charges = 0;
   double net_charge = 0;
   bool has_water = false;  ///< explicit water among the charges
+  int n_frames = 1;        ///< that the potential is the mean of
   std::string because;     ///< why this potential, where it was not asked for
 
   std::string cell_from;  ///< of pme: "given", "its own", or "padded"

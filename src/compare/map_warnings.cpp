@@ -109,8 +109,8 @@ bool same_map(const Grid& a, const Grid& b) {
 }
 
 bool same_state(const Molecule& a, const Molecule& b) {
-  constexpr double kSamePlace_A = 0.01;
-  const auto same = [](const Vec3d& u, const Vec3d& v) { return norm(u - v) < kSamePlace_A; };
+  constexpr double kSameAtom_A = 0.01;
+  const auto same = [](const Vec3d& u, const Vec3d& v) { return norm(u - v) < kSameAtom_A; };
   return std::equal(a.positions.begin(), a.positions.end(), b.positions.begin(), b.positions.end(), same) &&
          a.charges == b.charges;
 }
@@ -176,7 +176,7 @@ Kind kind_of(const std::shared_ptr<const MapRecipe>& recipe, const std::shared_p
 }
 
 bool is_water_of_a_frame(const std::shared_ptr<const MapRecipe>& recipe) {
-  return recipe && recipe->method == PotentialMethod::kPme && recipe->has_water;
+  return recipe && recipe->method == PotentialMethod::kPme && recipe->has_water && recipe->n_frames == 1;
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ double rms_own_difference(const std::vector<ResidueRow>& rows) {
 std::vector<std::uint8_t> disagreeing_residues(const std::vector<ResidueRow>& rows,
                                                const std::vector<OwnPotential>& source) {
   // The median of a normal distribution's absolute values is 0.6745 of its deviation.
-  constexpr double kDeviationByMedian = 1.4826, kDeviations = 5, kLeastShare = 0.15;
+  constexpr double kDeviationByMedian = 1.4826, kDeviations = 5, kLeastShare = 0.25;
   const double limit =
       std::max(kDeviations * kDeviationByMedian * median_error(rows), kLeastShare * rms_potential(source));
   std::vector<std::uint8_t> disagrees(rows.size(), 0);

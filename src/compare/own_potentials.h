@@ -38,7 +38,7 @@ double rms_own_difference(const std::vector<ResidueRow>& rows);
 constexpr std::size_t kLeastComparedResidues = 5;
 
 /// [residue] nonzero where the mapped difference is off the difference on the residue's own surfaces by more than five
-/// standard deviations (from the median of all errors, which single residues do not move) and by more than 15 % of the
+/// standard deviations (from the median of all errors, which single residues do not move) and by more than 25 % of the
 /// potentials: other places of the residue were compared, such as those of a side chain that turned over.
 /// @param rows with own differences, of what is trusted so far  @param source from own_potentials()
 std::vector<std::uint8_t> disagreeing_residues(const std::vector<ResidueRow>& rows,

@@ -8,9 +8,11 @@
 #include "base/surface_parts.h"
 #include "causes/causes.h"
 #include "causes/reading.h"
+#include "compare/cause_probes.h"
 #include "compare/map_recipe.h"
 #include "compare/options.h"
 #include "compare/sample_outside.h"
+#include "compare/short_numbers.h"
 #include "engine/engine.h"
 
 namespace espdiff {
@@ -86,9 +88,45 @@ std::vector<Vec3d> places_of(const std::vector<double>& weights, const std::vect
   return places;
 }
 
+/// [change] nonzero for residues with surface: the source's, by its vertices, and their partners. A residue that the
+/// target has alone is taken for one at the surface; inside, its placements clash.
+std::vector<std::uint8_t> at_surface(const CompareResult& result, const Causes& causes) {
+  std::vector<bool> has_surface;
+  for (const std::int32_t residue : result.surface.residue) {
+    if (residue < 0) continue;
+    const auto r = static_cast<std::size_t>(residue);
+    if (r >= has_surface.size()) has_surface.resize(r + 1, false);
+    has_surface[r] = true;
+  }
+  std::vector<std::uint8_t> at;
+  for (const ResidueChange& change : causes.changes) {
+    const auto r = static_cast<std::size_t>(change.source);
+    at.push_back(change.source < 0 || (r < has_surface.size() && has_surface[r]) ? 1 : 0);
+  }
+  return at;
+}
+
+/// Splits what charges and probes add: the probes' values, the charges' stay.
+std::vector<double> take_probes(std::vector<double>& values, std::size_t n_charges) {
+  const auto first = values.begin() + static_cast<std::ptrdiff_t>(n_charges);
+  std::vector<double> of_probes(first, values.end());
+  values.erase(first, values.end());
+  return of_probes;
+}
+
 }  // namespace
 
 void check_readings(const CompareOptions& options) {
+  for (const char* name : {"scan", "side-chains"}) {
+    const bool is_asked = name == std::string("scan") ? options.scan : options.side_chains > 0;
+    if (is_asked && options.causes.empty())
+      throw InputError(option(name) + " is of a reading: give " + option("causes") + " as well, such as " +
+                       option("causes", "whole"));
+  }
+  const auto is_whole = [](const std::string& text) { return parse_reading(text).of == ReadingOf::kWhole; };
+  if (options.side_chains > 0 && std::all_of(options.causes.begin(), options.causes.end(), is_whole))
+    throw InputError(option("side-chains") + " is of a mean difference: give " + option("causes", "region") +
+                     ", a patch or a residue; the whole's reading is a mean of sizes, which is not linear");
   for (const std::string& text : options.causes) {
     const ReadingRequest request = parse_reading(text);
     if (request.of == ReadingOf::kRegion && !options.input.has_region())
@@ -145,25 +183,45 @@ void find_causes(Engine& engine, const SideCharges& source, const SideCharges& t
     weights.push_back(weights_of(parse_reading(text), text, result, parts, source_molecule));
   const float isovalue = static_cast<float>(options.surface.isovalue);
   const double offset_A = options.offsets_A.front();
-  const auto contributions = [&](const PotentialSide& side, const MeshPtr& mesh) {
-    return engine.contributions(side.map, moved_outside(engine, mesh, side.atoms, isovalue, offset_A), weights,
-                                progress);
-  };
-  const auto of_source = contributions(source.side, step.mapping.source),
-             of_target = contributions(target.side, step.mapping.mapped);
   auto causes = std::make_shared<Causes>();
   causes->changes = residue_changes(
       {source_molecule, target_molecule, target_of, result.pairing, result.protonation, result.source_to_target});
   causes->knows_places = knows_places(source_molecule) || knows_places(target_molecule);
   for (const Residue& residue : source_molecule.residues)
     causes->has_chains = causes->has_chains || residue.chain != source_molecule.residues.front().chain;
+  const std::vector<std::uint8_t> may_move = at_surface(result, *causes);
+  const StateProbes source_probes =
+                        probes_of(source_molecule, step.frame.from_source, *causes, false, may_move, options),
+                    target_probes =
+                        probes_of(target_molecule, step.frame.from_target, *causes, true, may_move, options);
+  const auto contributions = [&](const PotentialSide& side, const MeshPtr& mesh, const StateProbes& probes) {
+    return engine.contributions(side.map, moved_outside(engine, mesh, side.atoms, isovalue, offset_A), weights,
+                                probes.charges, progress);
+  };
+  auto of_source = contributions(source.side, step.mapping.source, source_probes),
+       of_target = contributions(target.side, step.mapping.mapped, target_probes);
+  const auto depends_on_shape = [](const std::shared_ptr<const MapRecipe>& recipe) {
+    return recipe != nullptr && recipe->method == PotentialMethod::kPoissonBoltzmann;
+  };
+  const bool is_exact = !depends_on_shape(result.source_recipe) && !depends_on_shape(result.target_recipe);
   const MappedSurface& s = result.surface;
   for (std::size_t r = 0; r < weights.size(); ++r) {
+    const std::vector<double> source_values = take_probes(of_source[r], source.charges.size()),
+                              target_values = take_probes(of_target[r], target.charges.size());
     add_reading(*causes, options.causes[r],
                 {source_molecule, source.charges, of_source[r], places_of(weights[r], s.source_positions),
                  reading_of(weights[r], s.potential_source)},
                 {target_molecule, target.charges, of_target[r], places_of(weights[r], s.positions),
                  reading_of(weights[r], s.potential_target)});
+    add_probed(*causes, source_probes, source_values, target_probes, target_values, is_exact, options);
+  }
+  for (const CausesOfReading& reading : causes->readings) {
+    if (!reading.placements || !reading.placements->spans_zero()) continue;
+    result.warnings.push_back({"the difference of " + reading.name + " is " + short_number(reading.difference()) +
+                                   ", and " + short_number(reading.placements->low) + " to " +
+                                   short_number(reading.placements->high) +
+                                   " with side chains in other places: its sign is not known",
+                               false});
   }
   result.causes = causes;
 }

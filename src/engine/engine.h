@@ -36,6 +36,7 @@ struct MorphResult;
 struct MovingAtom;
 struct PmeCell;
 struct PmeOptions;
+struct ProbeCharge;
 struct PoissonBoltzmannOptions;
 struct PoissonBoltzmannReport;
 struct SubdivisionResult;
@@ -246,13 +247,16 @@ class Engine {
   /// contributions add up to the reading: each is the transpose of all that made the map and samples it. pb solves its
   /// equation once for each reading (its operator is symmetric), all with the same coefficients; coulomb and pme take
   /// the weights as charges and read their potential at the atoms. Time: at most that of the map for each reading.
+  /// A probe is a charge that the map is not made of: what it would add, with the map's coefficients kept.
   /// @param map     of poisson_boltzmann(), pme_potential(), zero_in_bulk() or isolated_charges(); the contributions
-  /// are in the order of its charges
+  /// are in the order of its charges, then the probes
   /// @param weights [reading][vertex]; 0 where the vertex lies outside the map
-  /// @throws InputError (a map that was not computed, the nonlinear equation, a weight outside the map), MemoryError,
-  ///         ConvergenceError, Cancelled
+  /// @param probes  in the mesh's frame
+  /// @throws InputError (a map that was not computed, the nonlinear equation, a weight or a probe outside the map),
+  ///         MemoryError, ConvergenceError, Cancelled
   virtual std::vector<std::vector<double>> contributions(const GridPtr& map, const MeshPtr& mesh,
                                                          const std::vector<std::vector<double>>& weights,
+                                                         const std::vector<ProbeCharge>& probes,
                                                          const Progress& progress) = 0;
 
   /// Compares potentials at corresponding vertices.

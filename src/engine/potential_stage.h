@@ -66,4 +66,11 @@ struct CoulombOptions {
   double temperature_K = 300;
 };
 
+/// A charge that a map is not made of; see Engine::contributions().
+struct ProbeCharge {
+  Vec3d position;    ///< Angstrom
+  float radius = 0;  ///< Angstrom; pb: of the Debye-Hueckel values on the border
+  float charge = 1;  ///< elementary charges
+};
+
 }  // namespace espdiff

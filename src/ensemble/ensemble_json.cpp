@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/formats.h"
 #include "base/version.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
@@ -136,7 +137,7 @@ Json patches_json(const EnsembleFile& file, const EnsembleResult& result) {
 }  // namespace
 
 Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
-  Json json;
+  Json json{{"format", kEnsembleFormat}, {"format_version", kFormatVersion}};
   json["version"] = kVersion;
   json["conclusion"] = result.conclusion;
   json["plan"] = Json::parse(plan_text(file.plan()));

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "base/counter_random.h"
 #include "base/error.h"
 #include "base/not_a_number.h"
 #include "compare/options.h"
@@ -16,7 +17,6 @@
 #include "ensemble/ensemble_result.h"
 #include "ensemble/state_sums.h"
 #include "ensemble/template_patches.h"
-#include "statistics/counter_random.h"
 #include "statistics/mesh_graph.h"
 
 namespace espdiff {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/formats.h"
 #include "io/atomic_file.h"
 #include "io/write_csv.h"
 #include "matrix/write_through_template.h"
@@ -150,7 +151,7 @@ void write_table(std::ostream& out, const Matrix& matrix) {
 }  // namespace
 
 Json matrix_json(const Matrix& matrix, std::size_t metric) {
-  Json json;
+  Json json{{"format", kMatrixFormat}, {"format_version", kFormatVersion}};
   const Json plan = plan_json(matrix.plan);
   for (const char* key : {"version", "device", "potential", "potential_unit"}) json[key] = plan[key];
   json["options"] = options_json(matrix.plan.settings);

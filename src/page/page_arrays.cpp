@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/error.h"
+#include "io/base64.h"
 
 namespace espdiff {
 namespace {
@@ -66,6 +68,17 @@ nlohmann::ordered_json PageArrays::add_numbers(const std::vector<double>& values
   return {{"offset", offset}, {"n", values.size()}, {"min", low}, {"max", high}};
 }
 
+nlohmann::ordered_json PageArrays::add_singles(const std::vector<double>& values) {
+  const std::size_t offset = begin(4);
+  for (const double value : values) {
+    const auto single = static_cast<float>(value);
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &single, sizeof bits);
+    append_bits(bytes_, bits, 4);
+  }
+  return {{"offset", offset}, {"n", values.size()}, {"single", true}};
+}
+
 nlohmann::ordered_json PageArrays::add_triangles(const std::vector<Triangle>& triangles) {
   const std::size_t offset = begin(4);
   std::uint32_t before = 0;
@@ -84,19 +97,6 @@ nlohmann::ordered_json PageArrays::add_integers(const std::vector<std::int32_t>&
   return {{"offset", offset}, {"n", values.size()}};
 }
 
-std::string PageArrays::base64() const {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const std::string bytes = deflated(bytes_);
-  std::string text;
-  text.reserve(bytes.size() * 4 / 3 + 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = (group << 8) | (k < n ? static_cast<std::uint8_t>(bytes[i + k]) : std::uint8_t{0});
-    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? kDigits[(group >> (18 - 6 * k)) & 63U] : '=';
-  }
-  return text;
-}
+std::string PageArrays::base64() const { return base64_of(deflated(bytes_)); }
 
 }  // namespace espdiff

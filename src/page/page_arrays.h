@@ -16,6 +16,8 @@ class PageArrays {
   /// 65535 steps between the smallest and the largest value; the last one stands for NaN.
   /// @returns {offset (bytes), n, min, max} for the page's decode()
   nlohmann::ordered_json add_numbers(const std::vector<double>& values);
+  /// In single precision, for numbers that are read. @returns {offset, n, single: true} for the page's decode()
+  nlohmann::ordered_json add_singles(const std::vector<double>& values);
   /// Corners, each as its difference from the one before. @returns {offset, n} with n triangles
   nlohmann::ordered_json add_triangles(const std::vector<Triangle>& triangles);
   /// @returns {offset, n}

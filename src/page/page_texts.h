@@ -6,7 +6,7 @@
 
 namespace espdiff {
 
-/// By file name: report.html, report.css, report.js, three.min.js, TrackballControls.js.
+/// By file name: those of page/, and with three.js three.min.js and TrackballControls.js.
 const std::map<std::string, std::string>& page_texts();
 
 }  // namespace espdiff

@@ -186,6 +186,15 @@ std::string ComputedMap::fingerprint() const {
   return hash.finish();
 }
 
+MapMaker averaged_map(Grid mean, MapRecipe recipe) {
+  recipe.made = true;
+  recipe.zero = ZeroPlace::kCellMean;
+  return [grid = std::make_shared<const Grid>(std::move(mean)), recipe = std::move(recipe)](
+             Engine& engine, const RigidTransform& to_map, const GridPtr&, const Progress&) {
+    return MadeMap{engine.upload_map(*grid, to_map), recipe, nullptr};
+  };
+}
+
 MapMaker ComputedMap::maker() const {
   return [charges = charges_](Engine& engine, const RigidTransform& to_map, const GridPtr& before,
                               const Progress& progress) {

@@ -47,4 +47,9 @@ class ComputedMap {
   std::shared_ptr<const Charges> charges_;
 };
 
+/// The mean of a potential over frames, made by PotentialSeries, as the map of one of them. It has no contributions of
+/// charges.
+/// @param mean kT/e, in the frame's coordinates  @param recipe of the frame's own potential, with n_frames
+MapMaker averaged_map(Grid mean, MapRecipe recipe);
+
 }  // namespace espdiff

@@ -129,6 +129,7 @@ Grid PotentialSeries::next_map(const Molecule& frame, const std::optional<UnitCe
     first_ = std::move(first);
     first_->positions = superposed_atoms(frame, own_cell);
     first_->cell = choose_cell(options_, frame.positions, own_cell);
+    if (options_.around_aligned && !first_->positions.empty()) first_->cell.centre = middle_of(first_->positions);
   } else if (frame.size() != first_->n_atoms) {
     throw InputError(frame.name + ": a frame of " + std::to_string(frame.size()) + " atoms after one of " +
                      std::to_string(first_->n_atoms) + "; frames must be of one molecule");
@@ -149,6 +150,7 @@ Grid PotentialSeries::next_map(const Molecule& frame, const std::optional<UnitCe
     if (is_periodic) {
       cell.centre = to_first.apply(cell.centre);
       for (Vec3d& edge : cell.edges) edge = to_first.rotate(edge);
+      if (options_.around_aligned) cell.centre = first_->cell.centre;  // a periodic potential does not depend on it
     }
   }
   Grid map = compute(positions, frame, cell, progress);

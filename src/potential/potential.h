@@ -50,6 +50,7 @@ struct PotentialOptions {
   /// lattice, so that the average follows the molecule. In a periodic cell the molecule is unwrapped first
   /// (unwrapped()). kNone: frames are not moved.
   AlignAtoms align = AlignAtoms::kNone;
+  bool around_aligned = false;       ///< centres the lattice of a periodic cell on the superposed atoms
   std::size_t frames_per_block = 1;  ///< for the error bar
 };
 

@@ -116,6 +116,12 @@ std::vector<std::string> forced_states(const Molecule& source, const Molecule& r
   throw InputError(place + ": " + lack + remedy);
 }
 
+/// What a side has of its own, else what both sides have.
+std::string option_of_side(StateRole role, const InputOptions& options, std::string SideInput::*member) {
+  const std::string& own = (role == StateRole::kTarget ? options.target : options.source).*member;
+  return role == StateRole::kOnly || own.empty() ? options.both.*member : own;
+}
+
 }  // namespace
 
 const char* to_string(StateRole role) {
@@ -161,16 +167,7 @@ std::optional<Preparation> charge_molecule(Molecule& molecule, const InputOption
 
 LoadedState load_state(const StructureFile& file, const StateRequest& request, const InputOptions& options,
                        const Progress& progress) {
-  const SideInput& side = request.role == StateRole::kTarget ? options.target : options.source;
-  const auto own = [](const std::string& of_side, const std::string& of_both) {
-    return of_side.empty() ? of_both : of_side;
-  };
-  const bool has_side = request.role != StateRole::kOnly;
-  const std::string select = has_side ? own(side.select, options.both.select) : options.both.select;
-  const std::string topology = has_side ? own(side.topology, options.both.topology) : options.both.topology;
-  const char* const select_option = has_side && !side.select.empty()
-                                        ? request.role == StateRole::kTarget ? "target-select" : "source-select"
-                                        : "select";
+  const std::string topology = option_of_side(request.role, options, &SideInput::topology);
   StructureOptions structure = request.structure;
   structure.assembly = options.assembly;
   LoadedState state;
@@ -188,6 +185,22 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
       state.everything = file.read({structure.model, true, true, structure.assembly});
   }
   state.cell = file.unit_cell(structure.model);
+  state.is_changed = !structure.assembly.empty();
+  try {
+    select_and_charge(state, request, options, progress);
+  } catch (const UnchargedError& error) {
+    refuse_uncharged(error, state.molecule.name, file.line_of(structure.model, error.residue), request,
+                     force_field_for(state.molecule, nullptr, options.charges.force_field));
+  }
+  return state;
+}
+
+void select_and_charge(LoadedState& state, const StateRequest& request, const InputOptions& options,
+                       const Progress& progress) {
+  const std::string select = option_of_side(request.role, options, &SideInput::select);
+  const char* const select_option = select == options.both.select        ? "select"
+                                    : request.role == StateRole::kTarget ? "target-select"
+                                                                         : "source-select";
   state.whole = state.molecule;
   std::vector<bool> not_dropped(state.whole.size(), true), selected;
   if (!options.leave_out.empty()) {
@@ -200,29 +213,29 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
     state.molecule = keep_atoms(state.molecule, selected);
   }
   state.molecule.left_out = left_out_residues(state.whole, not_dropped, selected, state.molecule);
-  if (request.wants_charges) {
-    try {
-      state.preparation = charge_molecule(state.molecule, options, request, state.charge_files, progress);
-    } catch (const UnchargedError& error) {
-      refuse_uncharged(error, state.molecule.name, file.line_of(structure.model, error.residue), request,
-                       force_field_for(state.molecule, nullptr, options.charges.force_field));
-    }
-  }
+  if (request.wants_charges)
+    state.preparation = charge_molecule(state.molecule, options, request, state.charge_files, progress);
   if (state.preparation) {
     for (const std::string& ligand : state.preparation->ligands) state.charge_files.push_back({"ligand", ligand, {}});
   }
-  state.is_changed = !select.empty() || state.n_left_out > 0 || !structure.assembly.empty() ||
-                     state.preparation.has_value() || !state.charge_files.empty();
-  return state;
+  state.is_changed = state.is_changed || !select.empty() || state.n_left_out > 0 || state.preparation.has_value() ||
+                     !state.charge_files.empty();
 }
 
 LoadedState load_frame(const StructureFile& file, const StructureOptions& structure, const std::string& name,
                        const Molecule& source, bool source_is_prepared, const InputOptions& options,
                        const Progress& progress, StateRole role) {
-  StateRequest request{structure, role, false, true, &source};
+  const StateRequest request{structure, role, false, true, &source};
   LoadedState state = load_state(file, request, options, progress);
   state.molecule.name = name;
-  if (source.charges.empty() || is_charged(state.molecule)) return state;
+  charge_frame(state, source, source_is_prepared, request, options, progress);
+  return state;
+}
+
+void charge_frame(LoadedState& state, const Molecule& source, bool source_is_prepared, const StateRequest& request,
+                  const InputOptions& options, const Progress& progress) {
+  if (source.charges.empty() || is_charged(state.molecule)) return;
+  const std::string name = state.molecule.name;
   if (source_is_prepared && !has_same_atoms(state.molecule, source)) {
     InputOptions like_source = options;
     like_source.charges.same_protonation = true;
@@ -231,7 +244,6 @@ LoadedState load_frame(const StructureFile& file, const StructureOptions& struct
     take_values(state.molecule, source, name);
   }
   state.molecule.name = name;
-  return state;
 }
 
 void refuse_options_of_files(const InputOptions& options, StateRole role, const std::string& whose) {

@@ -63,6 +63,12 @@ struct StateRequest {
 LoadedState load_state(const StructureFile& file, const StateRequest& request, const InputOptions& options,
                        const Progress& progress);
 
+/// The same for a molecule that is there already, such as one of arrays: drops and selects its atoms, then gives it
+/// charges.
+/// @param state with molecule, cell, everything. @throws as load_state() behind reading; UnchargedError
+void select_and_charge(LoadedState& state, const StateRequest& request, const InputOptions& options,
+                       const Progress& progress);
+
 /// Gives a molecule charges unless it has some: from another state's PQR, or by PDB2PQR.
 /// @returns what PDB2PQR did, where it ran
 std::optional<Preparation> charge_molecule(Molecule& molecule, const InputOptions& options, const StateRequest& request,
@@ -75,6 +81,10 @@ std::optional<Preparation> charge_molecule(Molecule& molecule, const InputOption
 LoadedState load_frame(const StructureFile& file, const StructureOptions& structure, const std::string& name,
                        const Molecule& source, bool source_is_prepared, const InputOptions& options,
                        const Progress& progress, StateRole role = StateRole::kTarget);
+
+/// The last step of load_frame(): charges for a frame that is read and selected; request.source is the source.
+void charge_frame(LoadedState& state, const Molecule& source, bool source_is_prepared, const StateRequest& request,
+                  const InputOptions& options, const Progress& progress);
 
 /// For a molecule that comes from no file.
 /// @param whose what the molecule is and what to do instead, for the message: "b is ...; choose ..."

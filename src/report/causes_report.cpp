@@ -8,28 +8,12 @@
 #include "base/formatted.h"
 #include "causes/causes.h"
 #include "io/write_csv.h"
+#include "report/cause_numbers.h"
 #include "report/json_number.h"
+#include "report/probed_causes.h"
 
 namespace espdiff {
 namespace {
-
-/// Numbers of one reading, all with the decimals that give its largest two digits.
-class Numbers {
- public:
-  Numbers(const Causes& causes, const CausesOfReading& reading) {
-    double largest = std::fabs(reading.difference());
-    for (const KindSum& sum : sums_by_kind(causes, reading)) largest = std::max(largest, std::fabs(sum.difference));
-    constexpr int kMost = 8;
-    if (largest > 0) decimals_ = std::clamp(1 - static_cast<int>(std::floor(std::log10(largest))), 0, kMost);
-  }
-  bool is_zero(double value) const { return std::fabs(value) < 0.5 * std::pow(10.0, -decimals_); }
-  std::string operator()(double value) const {
-    return is_zero(value) ? formatted("%.*f", decimals_, 0.0) : formatted("%+.*f", decimals_, value);
-  }
-
- private:
-  int decimals_ = 2;
-};
 
 /// "2 residues that are substituted"
 std::string kind_in_words(const KindSum& sum) {
@@ -56,7 +40,7 @@ std::string kind_in_words(const KindSum& sum) {
 }
 
 /// " (LYS 118 -0.36, LYS 56 -0.12, ...)": the largest, at least a tenth of the sum of all.
-std::string examples(const Causes& causes, const KindSum& sum, const Numbers& number) {
+std::string examples(const Causes& causes, const KindSum& sum, const CauseNumbers& number) {
   constexpr std::size_t kMost = 3;
   constexpr double kLeast = 0.2;
   std::string text;
@@ -106,7 +90,7 @@ nlohmann::ordered_json contribution_json(const Causes& causes, const Contributio
 }  // namespace
 
 std::string causes_in_words(const Causes& causes, const CausesOfReading& reading, const std::string& unit) {
-  const Numbers number(causes, reading);
+  const CauseNumbers number(causes, reading);
   constexpr std::size_t kMostKinds = 5;
   std::string text = "the difference is " + number(reading.difference()) + " " + unit;
   double rest = 0;
@@ -130,7 +114,7 @@ std::string causes_in_words(const Causes& causes, const CausesOfReading& reading
 std::string certainty_in_words(const Causes& causes, const CausesOfReading& reading, const std::string& unit) {
   if (!causes.knows_places)
     return "no file says how well places are known (B factors), so neither does this; compare the deposited structures";
-  const Numbers number(causes, reading);
+  const CauseNumbers number(causes, reading);
   const KindSum poor = poorly_known(causes, reading);
   if (poor.contributions.empty()) return "no residue's place is poorly known";
   std::string text = "of it, " + number(poor.difference) + " " + unit + " comes from " +
@@ -150,10 +134,13 @@ std::string certainty_in_words(const Causes& causes, const CausesOfReading& read
 }
 
 std::vector<std::string> causes_lines(const Causes& causes, const CausesOfReading& reading, const std::string& unit) {
-  return {causes_in_words(causes, reading, unit), certainty_in_words(causes, reading, unit),
-          "check: the contributions add up to " + formatted("%.5g", reading.sum_of_source) + " and " +
-              formatted("%.5g", reading.sum_of_target) + ", the potentials there are " +
-              formatted("%.5g", reading.source) + " and " + formatted("%.5g", reading.target) + " " + unit};
+  std::vector<std::string> lines{causes_in_words(causes, reading, unit), certainty_in_words(causes, reading, unit)};
+  if (reading.placements) lines.push_back(placements_in_words(causes, reading, unit));
+  if (!reading.scan.empty()) lines.push_back(scan_in_words(causes, reading, unit));
+  lines.push_back("check: the contributions add up to " + formatted("%.5g", reading.sum_of_source) + " and " +
+                  formatted("%.5g", reading.sum_of_target) + ", the potentials there are " +
+                  formatted("%.5g", reading.source) + " and " + formatted("%.5g", reading.target) + " " + unit);
+  return lines;
 }
 
 nlohmann::ordered_json causes_json(const Causes& causes, const std::string& unit) {
@@ -181,6 +168,8 @@ nlohmann::ordered_json causes_json(const Causes& causes, const std::string& unit
     json["largest"] = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < reading.contributions.size() && i < kMostResidues; ++i)
       json["largest"].push_back(contribution_json(causes, reading.contributions[i]));
+    if (reading.placements) json["side_chains"] = placements_json(causes, reading);
+    if (!reading.scan.empty()) json["scan"] = scan_json(causes, reading);
     all.push_back(std::move(json));
   }
   return all;

@@ -5,6 +5,7 @@
 
 #include "align/protonation.h"
 #include "align/rigid_domains.h"
+#include "base/formats.h"
 #include "compare/choose_motions.h"
 #include "compare/options.h"
 #include "compare/result.h"
@@ -290,6 +291,8 @@ Json options_json(const std::vector<std::pair<std::string, std::string>>& texts)
 Json compare_json(const Molecule& source, const Molecule& target, const CompareResult& result,
                   const CompareOptions& options, const Provenance& provenance) {
   Json json;
+  json["format"] = kComparisonFormat;
+  json["format_version"] = kFormatVersion;
   add_results(json, source, result);
   json["time_ms"] = Json::object();
   for (const auto& [stage, ms] : result.time_ms) json["time_ms"][stage] = json_number(ms);

@@ -330,17 +330,28 @@ void print_warnings(std::ostream& out, const CompareResult& result, const Option
   for (const Warning& warning : result.warnings) item(out, warning.text.spelled(spelling));
 }
 
+/// "; the sign of the difference of region is not known: ..." for readings whose interval spans zero; otherwise empty.
+std::string unknown_signs(const CompareResult& result) {
+  std::string names;
+  if (result.causes == nullptr) return names;
+  for (const CausesOfReading& reading : result.causes->readings) {
+    if (reading.placements && reading.placements->spans_zero()) names += (names.empty() ? "" : ", ") + reading.name;
+  }
+  return names.empty() ? names
+                       : "; the sign of the difference is not known (" + names +
+                             "): with side chains in other places its interval spans zero";
+}
+
 void print_verdict(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
   const Certificate& c = result.certificate;
   out << '\n';
-  out << verdict_of(c) << ": ";
+  out << verdict_of(c) << (c.trustworthy ? ": " : ":\n");
   if (!c.trustworthy) {
-    out << '\n';
     for (const Message& reason : c.reasons) item(out, reason.spelled(spelling));
     return;
   }
   out << "the numbers rest on " << share_of(c.trusted.source) << " of the source's surface and "
-      << share_of(c.trusted.target) << " of the target's\n";
+      << share_of(c.trusted.target) << " of the target's" << unknown_signs(result) << '\n';
   if (c.trusted.share() >= kWholeShare || c.untrusted_parts.empty()) return;
   out << "Not trusted:\n";
   for (const std::string& part : c.untrusted_parts) item(out, part);

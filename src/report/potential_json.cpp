@@ -79,6 +79,7 @@ Json recipe_json(const MapRecipe& r) {
   json["n_charges"] = r.n_charges;
   json["net_charge"] = json_number(r.net_charge);
   json["explicit_water"] = r.has_water;
+  if (r.n_frames > 1) json["frames"] = r.n_frames;
   if (r.method == PotentialMethod::kPme) add_pme(json, r);
   if (r.method == PotentialMethod::kPoissonBoltzmann) add_pb(json, r);
   if (r.method == PotentialMethod::kCoulomb) {

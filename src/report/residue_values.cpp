@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "causes/causes.h"
 #include "compare/result.h"
 #include "io/atomic_file.h"
 #include "io/write_pdb.h"
@@ -30,6 +31,21 @@ std::vector<double> residue_shares(const CompareResult& result) {
   return shares;
 }
 
+/// What each residue of the source adds to the first reading's difference.
+std::vector<double> residue_contributions(const CompareResult& result) {
+  if (result.causes == nullptr || result.causes->readings.empty())
+    throw InputError(std::string(kContribution) + " is what a residue adds to a reading: give " +
+                     option("causes", "region") + ", or another of its readings");
+  std::vector<double> values(result.residues.size(), std::numeric_limits<double>::quiet_NaN());
+  for (const Contribution& c : result.causes->readings.front().contributions) {
+    const std::int32_t residue = result.causes->changes[c.change].source;
+    for (std::size_t row = 0; residue >= 0 && row < values.size(); ++row) {
+      if (result.residues[row].residue == static_cast<std::size_t>(residue)) values[row] = c.difference();
+    }
+  }
+  return values;
+}
+
 const Metric& find_quantity(const std::string& name) {
   const Metric* const metric = find_metric_or_null(name);
   if (metric != nullptr && metric->has_residues()) return *metric;
@@ -41,7 +57,7 @@ const Metric& find_quantity(const std::string& name) {
 }  // namespace
 
 std::vector<std::string> residue_quantities() {
-  std::vector<std::string> names{kShare};
+  std::vector<std::string> names{kShare, kContribution};
   for (const Metric& metric : metrics()) {
     if (metric.has_residues()) names.emplace_back(metric.name);
   }
@@ -49,7 +65,7 @@ std::vector<std::string> residue_quantities() {
 }
 
 void require_residue_quantity(const std::string& name) {
-  if (name != kShare) find_quantity(name);
+  if (name != kShare && name != kContribution) find_quantity(name);
 }
 
 std::string usual_residue_quantity(const CompareResult& result) {
@@ -58,6 +74,7 @@ std::string usual_residue_quantity(const CompareResult& result) {
 
 std::vector<double> residue_values(const CompareResult& result, const std::string& quantity) {
   if (quantity == kShare) return residue_shares(result);
+  if (quantity == kContribution) return residue_contributions(result);
   const Metric& metric = find_quantity(quantity);
   if (metric.section == MetricSection::kPotential && !result.has_potential)
     throw InputError(quantity + " needs potentials, and shapes alone were compared; take mean_displacement_A");
@@ -68,6 +85,7 @@ std::vector<double> residue_values(const CompareResult& result, const std::strin
 
 std::string residue_unit(const CompareResult& result, const std::string& quantity) {
   if (quantity == kShare) return "";
+  if (quantity == kContribution) return potential_unit_text(result);
   return unit_of(find_quantity(quantity), potential_unit_text(result));
 }
 

@@ -11,8 +11,11 @@ namespace espdiff {
 class AtomicFile;
 struct CompareResult;
 
-/// The quantities of a residue: `share`, its part of the sum of |difference| times area over all residues (0 to 1), and
-/// the names of the metrics that it has.
+/// What a residue adds to the first reading whose causes were asked for.
+constexpr const char* kContribution = "contribution";
+
+/// The quantities of a residue: `share`, its part of the sum of |difference| times area over all residues (0 to 1),
+/// `contribution`, and the names of the metrics that it has.
 std::vector<std::string> residue_quantities();
 
 /// @throws InputError with those there are
@@ -21,7 +24,8 @@ void require_residue_quantity(const std::string& name);
 std::string usual_residue_quantity(const CompareResult& result);
 
 /// [residue] of the source; NaN where it has no surface that is counted.
-/// @throws InputError (unknown name, with those there are; one of potentials where there are none)
+/// @throws InputError (unknown name, with those there are; one of potentials where there are none; a contribution
+/// without causes)
 std::vector<double> residue_values(const CompareResult& result, const std::string& quantity);
 /// "kT/e", "A", or empty.
 std::string residue_unit(const CompareResult& result, const std::string& quantity);

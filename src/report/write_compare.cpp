@@ -25,6 +25,7 @@
 #include "report/causes_report.h"
 #include "report/metrics.h"
 #include "report/potential_json.h"
+#include "report/probed_causes.h"
 #include "report/provenance.h"
 
 namespace espdiff {
@@ -55,19 +56,26 @@ DerivedArrays derive(const Molecule& source, const CompareResult& result) {
   return arrays;
 }
 
-void write_surface_file(std::ostream& out, const Molecule& source, const CompareResult& result,
-                        const Provenance& provenance) {
+}  // namespace
+
+struct SurfaceArrays::Derived {
+  DerivedArrays of_vertices;
+  std::vector<float> unknown_slip;
+  std::vector<std::uint8_t> matched_everywhere;
+};
+
+SurfaceArrays::SurfaceArrays(const Molecule& source, const CompareResult& result, const std::string& version)
+    : derived_(new Derived{derive(source, result), {}, {}}) {
   const MappedSurface& s = result.surface;
-  const DerivedArrays derived = derive(source, result);
-  const std::vector<float> unknown_slip(s.slip.empty() ? s.positions.size() : 0,
-                                        std::numeric_limits<float>::quiet_NaN());
-  VtpSurface file;
+  const DerivedArrays& derived = derived_->of_vertices;
+  if (s.slip.empty()) derived_->unknown_slip.assign(s.positions.size(), std::numeric_limits<float>::quiet_NaN());
+  if (s.unmatched.empty()) derived_->matched_everywhere.assign(s.triangles.size(), 0);
   file.points = VtpArray("Points", s.positions);
   file.triangles = &s.triangles;
   file.point_arrays = {{"source_position", s.source_positions},
                        {"displacement", s.displacement},
                        {"path_length", s.path_length},
-                       {"slip", s.slip.empty() ? unknown_slip : s.slip},
+                       {"slip", s.slip.empty() ? derived_->unknown_slip : s.slip},
                        {"normal", s.normals},
                        {"source_normal", s.source_normals},
                        {"residue_number", derived.residue_number},
@@ -85,13 +93,16 @@ void write_surface_file(std::ostream& out, const Molecule& source, const Compare
     const std::string label = potential_label(result);
     if (!label.empty()) file.texts.emplace_back("potential", label);
   }
-  const std::vector<std::uint8_t> everywhere(s.triangles.size(), 0);
-  file.cell_arrays = {
-      {"corrupt", s.corrupt}, {"no_counterpart", s.unmatched.empty() ? everywhere : s.unmatched}, {"why", s.why}};
+  file.cell_arrays = {{"corrupt", s.corrupt},
+                      {"no_counterpart", s.unmatched.empty() ? derived_->matched_everywhere : s.unmatched},
+                      {"why", s.why}};
   file.texts.emplace_back("length_unit", "Angstrom");
-  file.texts.emplace_back("written_by", "espdiff " + provenance.version);
-  write_vtp(out, file);
+  file.texts.emplace_back("written_by", "espdiff " + version);
 }
+
+SurfaceArrays::~SurfaceArrays() = default;
+
+namespace {
 
 /// "mean_displacement [A]"
 std::string column_of(const Metric& metric, const std::string& potential_unit) {
@@ -155,16 +166,30 @@ class FileSet {
   std::deque<AtomicFile> files_;
 };
 
+/// A file about causes.
+struct CauseFile {
+  const char* ending;
+  bool (*is_wanted)(const CompareOptions& options);
+  void (*write)(std::ostream& out, const Causes& causes, const std::string& unit);
+};
+constexpr CauseFile kCauseFiles[] = {
+    {".causes.csv", [](const CompareOptions& o) { return !o.causes.empty(); }, write_causes},
+    {".scan.csv", [](const CompareOptions& o) { return o.scan; }, write_scan},
+    {".side-chains.csv", [](const CompareOptions& o) { return o.side_chains > 0; }, write_side_chains}};
+
 void add_results(FileSet& files, const std::string& output_prefix, const Molecule& source, const Molecule& target,
                  const CompareResult& result, const CompareOptions& options, const Provenance& provenance) {
   // A path need not be UTF-8, JSON must be.
   files.add(output_prefix + ".json") << compare_json(source, target, result, options, provenance)
                                             .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
                                      << '\n';
-  write_surface_file(files.add(output_prefix + ".vtp"), source, result, provenance);
+  write_vtp(files.add(output_prefix + ".vtp"), SurfaceArrays(source, result, provenance.version).file);
   write_residue_file(files.add(output_prefix + ".residues.csv"), source, result);
-  if (result.causes != nullptr)
-    write_causes(files.add(output_prefix + kCausesEnding), *result.causes, potential_unit_text(result));
+  if (result.causes == nullptr) return;
+  for (const CauseFile& file : kCauseFiles) {
+    if (file.is_wanted(options))
+      file.write(files.add(output_prefix + file.ending), *result.causes, potential_unit_text(result));
+  }
 }
 
 /// Adds a file whose content is the input of this role from now on.
@@ -180,6 +205,14 @@ void keep(FileSet& files, Provenance& provenance, const std::string& role, const
 }
 
 }  // namespace
+
+std::vector<std::string> cause_endings(const CompareOptions& options) {
+  std::vector<std::string> endings;
+  for (const CauseFile& file : kCauseFiles) {
+    if (file.is_wanted(options)) endings.emplace_back(file.ending);
+  }
+  return endings;
+}
 
 void write_compare(const std::string& output_prefix, const Molecule& source, const Molecule& target,
                    const CompareResult& result, const CompareOptions& options, Provenance provenance,

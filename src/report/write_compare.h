@@ -1,6 +1,7 @@
 // write_compare.h: a comparison's results as files and as a table for people.
 #pragma once
 
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "base/message.h"
 #include "base/types.h"
+#include "io/write_vtp.h"
 
 namespace espdiff {
 
@@ -17,8 +19,9 @@ struct CompareOptions;
 struct CompareResult;
 struct Provenance;
 
-/// Of the file that a comparison with causes writes besides.
-constexpr const char* kCausesEnding = ".causes.csv";
+/// Of the files that a comparison with causes writes besides: ".causes.csv", and with their options ".scan.csv" and
+/// ".side-chains.csv".
+std::vector<std::string> cause_endings(const CompareOptions& options);
 
 /// A file written beside the results that is the input of a role from then on; the original input stays listed under
 /// ROLE_file.
@@ -26,6 +29,21 @@ struct KeptFile {
   std::string role;
   std::string ending;  ///< behind the prefix: ".source.pqr"
   std::string content;
+};
+
+/// The content of OUT.vtp. Refers to the result, which must outlast it.
+class SurfaceArrays {
+ public:
+  SurfaceArrays(const Molecule& source, const CompareResult& result, const std::string& version);
+  ~SurfaceArrays();
+  SurfaceArrays(const SurfaceArrays&) = delete;
+  SurfaceArrays& operator=(const SurfaceArrays&) = delete;
+
+  VtpSurface file;
+
+ private:
+  struct Derived;
+  std::unique_ptr<Derived> derived_;
 };
 
 /// Writes OUT.json (compare_json()), OUT.vtp and OUT.residues.csv; all three appear, or none and older ones stay as

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "statistics/counter_random.h"
+#include "base/counter_random.h"
 
 namespace espdiff {
 namespace {

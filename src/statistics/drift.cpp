@@ -6,8 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "base/counter_random.h"
 #include "statistics/autocorrelation.h"
-#include "statistics/counter_random.h"
 
 namespace espdiff {
 namespace {

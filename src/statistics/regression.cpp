@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/counter_random.h"
 #include "base/error.h"
 #include "base/not_a_number.h"
 #include "base/progress.h"
-#include "statistics/counter_random.h"
 #include "statistics/mesh_graph.h"
 #include "statistics/null_maxima.h"
 #include "statistics/tfce.h"

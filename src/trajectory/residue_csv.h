@@ -28,6 +28,8 @@ class ResidueCsv {
   ResidueCsv(std::string path, std::string quantity, ExistingFile existing);
 
   const std::string& path() const { return file_.path(); }
+  /// As it was asked for; empty for the usual one.
+  const std::string& quantity() const { return quantity_; }
   /// Goes on with an existing file: keeps the rows of `frames`, which it must have, and drops one more, which a killed
   /// run wrote.
   /// @param frames that have numbers in the trajectory's file  @param fingerprint of its head

@@ -10,6 +10,7 @@
 #include "compare/readings.h"
 #include "compare/result.h"
 #include "io/text_cursor.h"
+#include "report/residue_values.h"
 #include "trajectory/series_file.h"
 
 namespace espdiff {
@@ -55,6 +56,19 @@ std::optional<Error> error_of(Work work) {
   return std::nullopt;
 }
 
+/// A row has no place for causes: they go to the table of residues, one reading a file.
+void check_causes_of_frames(const CompareOptions& options, const std::string& quantity) {
+  if (options.causes.empty()) return;
+  if (options.scan) throw InputError(option("scan") + " is of one pair, not of a trajectory");
+  if (options.side_chains > 0)
+    throw InputError(option("side-chains") + " is of one pair, not of a trajectory, whose frames are its samples");
+  if (options.causes.size() > 1)
+    throw InputError(option("causes") + ": a trajectory has those of one reading; run it once for each");
+  if (quantity != kContribution)
+    throw InputError(option("causes") + " of a trajectory are written as a table of residues: give " +
+                     option("residues", "FILE") + " and " + option("residue-quantity", kContribution));
+}
+
 std::string in_front(int frame) { return "frame " + std::to_string(frame) + ": "; }
 
 }  // namespace
@@ -75,7 +89,7 @@ TrajectoryRun::TrajectoryRun(TrajectoryPlan plan, SeriesCsv file, std::optional<
   if (plan_.options.offsets_A.size() > 1)
     throw InputError(option("offset") +
                      ": a list of distances was given, and a trajectory has one row for a frame; give one");
-  refuse_causes(plan_.options, "a trajectory");
+  check_causes_of_frames(plan_.options, residues_ ? residues_->quantity() : std::string());
   check_earlier_rows();
   resume_residues();
   position_ = n_resumed_ = file_.rows().size();

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/formats.h"
 #include "base/formatted.h"
 #include "verify/mapped_file.h"
 #include "verify/target_surface.h"
@@ -72,10 +73,16 @@ void add_text_lines(const MappedFile& file, const ResultRecord& record, Lines& l
   lines.cover("OUT.vtp/length_unit");
   lines.cover("OUT.vtp/written_by");
   lines.cover("version");
+  lines.cover("format");
+  lines.cover("format_version");
+  lines.add_deviation(
+      "format, other than this version's",
+      record.text("format") == kComparisonFormat && record.number("format_version") == kFormatVersion ? 0 : 1, 0);
   lines.add_deviation("version, against OUT.vtp", text("written_by") == "espdiff " + record.text("version") ? 0 : 1, 0);
   lines.cover("OUT.vtp/potential_unit");
-  lines.cover("OUT.vtp/potential");
   lines.add_text("potential_unit", text("potential_unit"), "OUT.vtp");
+  if (record.size("potential") == 0) return;  // of given maps: its kind follows from their check
+  lines.cover("OUT.vtp/potential");
   lines.add_text("potential/label", text("potential"), "OUT.vtp");
 }
 

@@ -39,6 +39,8 @@ constexpr struct {
                       {"by_offset", "potentials outside of the surface, and what lies inside of atoms, are in no file"},
                       {"region", "which triangles belong to it is in no file"},
                       {"fixed_patches", "which triangles belong to it is in no file"},
+                      {"causes", "words, and readings of potentials, which are in no file"},
+                      {"given_maps", "the potentials that maps are compared with are in no file"},
                       {"superposition/domains", "the domains' motions are in no file"},
                       {"motions", "the domains' motions are in no file"},
                       {"surfaces", "the surfaces before the mapping are in no file"},

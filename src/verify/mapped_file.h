@@ -62,6 +62,8 @@ void add_residue_lines(const MappedFile& file, const ResultRecord& record, const
 /// @param partner_of by source residue; empty where the atoms were not read
 void add_trust_lines(const MappedFile& file, const CsvTable& table,
                      const std::map<std::int32_t, std::int32_t>& partner_of, Lines& lines);
+/// The causes against OUT.causes.csv, where there are any.
+void add_cause_lines(const std::string& prefix, const ResultRecord& record, Lines& lines);
 
 /// Counts, and arrays that follow from others.
 void add_array_lines(const MappedFile& file, Lines& lines);

@@ -13,6 +13,9 @@
 namespace espdiff {
 namespace {
 
+/// Triangles in the box of one; a surface has some tens.
+constexpr vtkIdType kMostCandidates = 5000;
+
 /// Six times the volume of a tetrahedron.
 double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
   return dot(cross(b - a, c - a), d - a);
@@ -74,6 +77,7 @@ std::size_t count_meetings(const std::vector<Vec3d>& positions, const std::vecto
     mesh->GetCellBounds(static_cast<vtkIdType>(t), box.data());
     candidates->Reset();
     locator->FindCellsWithinBounds(box.data(), candidates);
+    if (candidates->GetNumberOfIds() > kMostCandidates) return n + static_cast<std::size_t>(kMostCandidates);
     for (vtkIdType k = 0; k < candidates->GetNumberOfIds(); ++k) {
       const auto other = static_cast<std::size_t>(candidates->GetId(k));
       n += other > t && surface.meet(t, other) ? 1 : 0;

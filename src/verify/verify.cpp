@@ -57,7 +57,8 @@ Side make_side(Molecule molecule, double radius_scale) {
 class Verifier {
  public:
   explicit Verifier(const std::string& prefix)
-      : record_(prefix),
+      : prefix_(prefix),
+        record_(prefix),
         file_(prefix + ".vtp"),
         residues_(read_csv(prefix + ".residues.csv")),
         lines_(record_, result_) {}
@@ -67,6 +68,7 @@ class Verifier {
     add_array_lines(file_, lines_);
     add_text_lines(file_, record_, lines_);
     add_residue_lines(file_, record_, residues_, lines_);
+    add_cause_lines(prefix_, record_, lines_);
     lines_.add("certificate/self_intersecting_pairs",
                static_cast<double>(count_meetings(file_.positions, file_.matched())),
                0.01 * record_.number("certificate/self_intersecting_pairs").value_or(0));
@@ -282,6 +284,12 @@ class Verifier {
                compared > 0 ? same / compared : std::numeric_limits<double>::quiet_NaN(), kResidueTolerance);
   }
 
+  /// The unit in which maps are given; the result's says besides that they are in vacuum.
+  std::string unit_of_maps() const {
+    const std::string unit = record_.text("potential_unit");
+    return unit.substr(0, unit.find(" in vacuum"));
+  }
+
   /// The potentials at the vertices, from given map files.
   void maps() {
     if (file_.potential_source.empty()) return;
@@ -296,9 +304,8 @@ class Verifier {
       } else if (offset != 0) {
         why = "it was read outside the surface (options/offset)";
       } else {
-        why =
-            map_deviation(*entry, record_.text("potential_unit"), is_source ? file_.source_positions : file_.positions,
-                          is_source ? file_.potential_source : file_.potential_target, largest, scale);
+        why = map_deviation(*entry, unit_of_maps(), is_source ? file_.source_positions : file_.positions,
+                            is_source ? file_.potential_source : file_.potential_target, largest, scale);
       }
       if (why.empty()) {
         lines_.cover(record_.place_of_input(role + "_map") + "/sha256");
@@ -309,6 +316,7 @@ class Verifier {
     }
   }
 
+  std::string prefix_;
   ResultRecord record_;
   MappedFile file_;
   CsvTable residues_;

@@ -31,7 +31,12 @@ constexpr double kArrowWidth = 1.8;
 struct Guide {
   Vec3d centre, across;  ///< `across`: unit, in the plane of the peptide
   Fold fold = Fold::kCoil;
+  Rgb colour{};
 };
+
+Rgb fold_colour(Fold fold) {
+  return fold == Fold::kHelix ? kHelixColour : fold == Fold::kStrand ? kStrandColour : kCoilColour;
+}
 
 Vec3d unit(Vec3d v) {
   const double length = norm(v);
@@ -108,8 +113,7 @@ class Strip {
     across = unit(across - dot(across, along) * along);
     const Vec3d upward = cross(along, across);
     const Profile p = profile(i, t);
-    const Fold fold = at(t < 0.5 ? i : i + 1).fold;
-    const Rgb colour = fold == Fold::kHelix ? kHelixColour : fold == Fold::kStrand ? kStrandColour : kCoilColour;
+    const Rgb colour = at(t < 0.5 ? i : i + 1).colour;
     for (int k = 0; k < kCorners; ++k) {
       const double c = std::cos(2 * kPi * k / kCorners), s = std::sin(2 * kPi * k / kCorners);
       const Vec3d point = centre + (p.width * c) * across + (p.thickness * s) * upward;
@@ -142,7 +146,7 @@ Vec3d across_of(const Molecule& molecule, const Backbone& residue, Vec3d along, 
   return dot(across, before) < 0 ? -1.0 * across : across;
 }
 
-std::vector<Strip> strips_of(const Molecule& molecule) {
+std::vector<Strip> strips_of(const Molecule& molecule, const std::vector<Rgb>& colours) {
   const std::vector<Backbone> backbone = backbone_of(molecule);
   const std::vector<Fold> folds = assign_folds(molecule, backbone);
   std::vector<Strip> strips;
@@ -158,7 +162,8 @@ std::vector<Strip> strips_of(const Molecule& molecule) {
     if (backbone[r].ca >= 0 && (goes_on || !guides.empty())) {
       const Vec3d along = goes_on ? place(r + 1) - place(r) : place(r) - place(r - 1);
       const Vec3d before = guides.empty() ? Vec3d{1, 0, 0} : guides.back().across;
-      guides.push_back({place(r), across_of(molecule, backbone[r], along, before), folds[r]});
+      guides.push_back({place(r), across_of(molecule, backbone[r], along, before), folds[r],
+                        colours.empty() ? fold_colour(folds[r]) : colours[r]});
     }
     if (goes_on || guides.empty()) continue;
     strips.emplace_back(std::move(guides));
@@ -169,14 +174,14 @@ std::vector<Strip> strips_of(const Molecule& molecule) {
 
 }  // namespace
 
-vtkSmartPointer<vtkPolyData> make_cartoon(const Molecule& molecule) {
+vtkSmartPointer<vtkPolyData> make_cartoon(const Molecule& molecule, const std::vector<Rgb>& residue_colours) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkFloatArray> normals;
   normals->SetNumberOfComponents(3);
   vtkNew<vtkUnsignedCharArray> colours;
   colours->SetNumberOfComponents(3);
   vtkNew<vtkCellArray> cells;
-  for (const Strip& strip : strips_of(molecule)) strip.sweep(points, normals, colours, cells);
+  for (const Strip& strip : strips_of(molecule, residue_colours)) strip.sweep(points, normals, colours, cells);
   auto ribbons = vtkSmartPointer<vtkPolyData>::New();
   ribbons->SetPoints(points);
   ribbons->SetPolys(cells);

@@ -3,6 +3,8 @@
 
 #include <vtkSmartPointer.h>
 
+#include <vector>
+
 #include "base/types.h"
 #include "plot/colour_map.h"
 
@@ -16,6 +18,7 @@ inline constexpr Rgb kHelixColour{214, 170, 74}, kStrandColour{72, 148, 122}, kC
 /// The ribbons as triangles with point normals and colours (unsigned bytes, active scalars); empty for a molecule
 /// without backbone. M. Carson, J. Mol. Graph. 5, 103 (1987): the ribbon lies in the planes of the peptides. Here
 /// Catmull-Rom splines pass through the C-alphas of helices and coils, and through their means along strands.
-vtkSmartPointer<vtkPolyData> make_cartoon(const Molecule& molecule);
+/// @param colours [residue]; empty: by fold
+vtkSmartPointer<vtkPolyData> make_cartoon(const Molecule& molecule, const std::vector<Rgb>& colours = {});
 
 }  // namespace espdiff

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "io/read_csv.h"
 #include "io/structure_file.h"
 
 namespace espdiff {
@@ -18,19 +19,12 @@ bool reads_maps(const Scene& scene) {
 }
 
 bool draws_molecules(const Scene& scene) {
-  return scene.molecule != MoleculeStyle::kNone || scene.around_A > 0 || scene.n_labels > 0;
+  return scene.molecule != MoleculeStyle::kNone || scene.around_A > 0 || scene.n_labels > 0 || !scene.causes.empty() ||
+         !scene.focus.empty();
 }
 
 Molecule read_molecule(const RunRecord& record, const RecordedInput& input, bool with_water) {
-  const char* const remedy = "; compare again, or draw without the molecule and labels";
-  if (!record.found) throw InputError(record.path + ": no such file; it names the structures" + remedy);
-  std::error_code ignored;
-  if (!std::filesystem::exists(input.path, ignored)) throw InputError(input.path + " no longer exists" + remedy);
-  const StructureFile file(input.path);
-  if (file.sha256() != input.sha256) throw InputError(input.path + " has changed since the comparison" + remedy);
-  StructureOptions options = input.read_with;
-  if (with_water) options.include_hetero = options.include_water = true;
-  return file.read(options);
+  return read_compared(record, input, with_water, "; compare again, or draw without the molecule and labels");
 }
 
 /// A file may hold several models, and older records do not say which was compared, so the surface must fit the model
@@ -74,11 +68,72 @@ void read_molecules(ComparisonFiles& files, const Scene& scene) {
   }
 }
 
+std::string causes_path(const std::string& vtp_path) {
+  return std::filesystem::path(vtp_path).replace_extension(".causes.csv").string();
+}
+
+/// @throws IoError, FormatError; InputError that lists the readings of the file
+ReadingCauses read_causes(const std::string& path, const std::string& reading) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+    throw InputError(path + ": no such file; compare with " + option("causes", reading) + " first");
+  const CsvTable table = read_csv(path);
+  ReadingCauses causes{reading, {}, {}, {}};
+  const std::string word = "difference [";
+  const auto is_difference = [&](const std::string& column) { return column.rfind(word, 0) == 0; };
+  const auto difference = std::find_if(table.columns.begin(), table.columns.end(), is_difference);
+  if (difference == table.columns.end()) throw FormatError(path, 1, "it has no column of differences; compare again");
+  causes.unit = difference->substr(word.size(), difference->size() - word.size() - 1);
+  const auto value = static_cast<std::size_t>(difference - table.columns.begin());
+  const std::size_t name = table.require("reading"), chain = table.require("chain"),
+                    number = table.require("residue_number"), insertion = table.require("insertion_code"),
+                    residue = table.require("residue_name");
+  std::string all;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const std::vector<std::string>& cells = table.rows[row];
+    if (row == 0 || cells[name] != table.rows[row - 1][name]) all += (row == 0 ? "" : ", ") + cells[name];
+    if (cells[name] != reading || cells[number].empty()) continue;
+    causes.residues.push_back({cells[residue], cells[chain], static_cast<std::int32_t>(table.number(row, number)),
+                               cells[insertion].empty() ? ' ' : cells[insertion].front()});
+    causes.differences.push_back(table.number(row, value));
+  }
+  if (causes.residues.empty()) throw InputError(path + ": has no reading '" + reading + "'; it has " + all);
+  return causes;
+}
+
 }  // namespace
+
+std::vector<int> focused_residues(const RunRecord& record, const Scene& scene) {
+  if (scene.focus.empty()) return {};
+  const std::string patch = "patch ";
+  for (const std::string& name : {scene.focus, patch + scene.focus}) {
+    const auto found = record.parts.find(name);
+    if (found != record.parts.end() && !found->second.empty()) return found->second;
+  }
+  std::string names;
+  for (const auto& [part, residues] : record.parts) {
+    const std::string name = part.rfind(patch, 0) == 0 ? part.substr(patch.size()) : part;
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  throw InputError(option("focus", scene.focus) + " is no part of the result, which has " +
+                   (names.empty() ? "none; compare with " + option("region", "SELECTION") : names));
+}
+
+std::vector<int> outlined_residues(const RunRecord& record, const Scene& scene) {
+  if (!scene.focus.empty()) return focused_residues(record, scene);
+  const auto found = record.parts.find("region");
+  return found == record.parts.end() ? std::vector<int>() : found->second;
+}
 
 std::vector<std::string> files_of(const ComparisonFiles& files) {
   const RunRecord& r = files.record;
-  return {files.surface.path, r.path, r.source.path, r.target.path, r.source_map.path, r.target_map.path};
+  return {files.surface.path,
+          r.path,
+          r.source.path,
+          r.target.path,
+          r.source_map.path,
+          r.target_map.path,
+          causes_path(files.surface.path)};
 }
 
 bool shows_potentials(const Scene& scene) {
@@ -119,7 +174,13 @@ void read_missing_files(ComparisonFiles& files, const Scene& scene) {
   if (reads_maps(scene) && !files.maps.complete()) {
     throw InputError("isopotential and offset surfaces, field lines and slices need the maps: " + files.maps.why_not);
   }
+  focused_residues(files.record, scene);
   if (draws_molecules(scene)) read_molecules(files, scene);
+  if (scene.causes.empty()) {
+    files.causes.reset();
+  } else if (!files.causes || files.causes->reading != scene.causes) {
+    files.causes = read_causes(causes_path(surface.path), scene.causes);
+  }
 }
 
 }  // namespace espdiff

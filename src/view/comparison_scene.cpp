@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "view/camera_view.h"
+#include "view/cause_drawings.h"
 #include "view/map_drawings.h"
 #include "view/molecule_actors.h"
 #include "view/residue_labels.h"
@@ -35,8 +36,9 @@ bool draws_maps(const Scene& scene) {
 bool same_things(const Scene& a, const Scene& b) {
   return a.layout == b.layout && a.n_views == b.n_views && a.width == b.width && a.height == b.height &&
          a.surface == b.surface && a.molecule == b.molecule && a.around_A == b.around_A && a.n_labels == b.n_labels &&
-         a.isopotentials == b.isopotentials && a.offsets_A == b.offsets_A && a.n_field_lines == b.n_field_lines &&
-         a.slice == b.slice && a.legend == b.legend && a.title.empty() == b.title.empty() && a.colours == b.colours;
+         a.causes == b.causes && a.focus == b.focus && a.isopotentials == b.isopotentials && a.offsets_A == b.offsets_A &&
+         a.n_field_lines == b.n_field_lines && a.slice == b.slice && a.legend == b.legend &&
+         a.title.empty() == b.title.empty() && a.colours == b.colours;
 }
 
 }  // namespace
@@ -44,7 +46,7 @@ bool same_things(const Scene& a, const Scene& b) {
 ComparisonScene::ComparisonScene(const ComparisonFiles& files, Scene scene)
     : files_(files),
       scene_(std::move(scene)),
-      geometry_(files.surface, files.record, files.maps),
+      geometry_(files.surface, files.record, files.maps, outlined_residues(files.record, scene_)),
       source_texture_(std::make_shared<MapTexture>(files.maps.source)),
       target_texture_(std::make_shared<MapTexture>(files.maps.target)),
       no_texture_(std::make_shared<MapTexture>(nullptr)) {
@@ -124,9 +126,15 @@ SurfaceLook ComparisonScene::look_of(const Panel& panel, const Sheet& sheet) con
   }
   // Linked views keep the two sides opaque; only the third fades.
   if (scene_.layout == Layout::kLinked && &panel != &panels_.back()) look.opacity.greatest = 1;
+  constexpr double kAboveCauses = 0.4;
+  if (!scene_.causes.empty() && look.opacity.greatest == 1) look.opacity.greatest = kAboveCauses;
+  look.opacity.least = std::min(look.opacity.least, look.opacity.greatest);
   look.fades = sheet.fades;
   look.morph = sheet.morph;
   look.hatch_pixels = 7 * scale_factor_;
+  look.cuts = geometry_.has(SurfacePart::kUnmatched);
+  look.marks = geometry_.has_untrusted() && compares_places(sheet.array);
+  look.outlines = !outlined_residues(files_.record, scene_).empty();
   look.splits = sheet.from > 0 || sheet.to < 1;
   look.first_column = width * (panel.left + sheet.from * (panel.right - panel.left));
   look.last_column = width * (panel.left + sheet.to * (panel.right - panel.left));
@@ -139,7 +147,7 @@ void ComparisonScene::add_parts(std::size_t panel, std::size_t sheet) {
   for (std::size_t i = 0; i < offsets_.size(); ++i) {
     if (offset == scene_.offsets_A[i]) geometry = offsets_[i].second.get();
   }
-  for (const SurfacePart part : {SurfacePart::kTrusted, SurfacePart::kUntrusted, SurfacePart::kUnmatched}) {
+  for (const SurfacePart part : {SurfacePart::kMatched, SurfacePart::kUnmatched}) {
     if (!geometry->has(part)) continue;
     auto mapper = vtkSmartPointer<SurfaceMapper>::New();
     mapper->SetInputData(geometry->part(part));
@@ -161,13 +169,21 @@ void ComparisonScene::update_looks() {
     drawn.mapper->set_look(look);
     drawn.mapper->set_maps(per_fragment() ? source_texture_ : no_texture_,
                            per_fragment() ? target_texture_ : no_texture_);
-    // Unmatched parts exist on the source only.
-    drawn.actor->SetVisibility(drawn.part != SurfacePart::kUnmatched || look.morph == 0);
-    if (look.fades || look.opacity.greatest < 1 || drawn.part == SurfacePart::kUntrusted)
+    if (look.fades || look.opacity.greatest < 1)
       drawn.actor->ForceTranslucentOn();
     else
       drawn.actor->ForceTranslucentOff();
   }
+}
+
+void ComparisonScene::add_causes(const Panel& panel) {
+  if (!files_.causes || !files_.source_molecule) return;
+  const CauseDrawing drawing{*files_.source_molecule, *files_.causes, diverging_map(scene_.colours),
+                             scene_.height * scale_factor_ / 60};
+  for (const auto& prop : make_causes(drawing, scene_.molecule)) panel.renderer->AddViewProp(prop);
+  const auto outline =
+      make_outline(files_.surface, residues_of_reading(files_.record, drawing), scene_.height * scale_factor_ / 250);
+  if (outline != nullptr) panel.renderer->AddViewProp(outline);
 }
 
 void ComparisonScene::add_molecule(const Panel& panel) {
@@ -178,7 +194,9 @@ void ComparisonScene::add_molecule(const Panel& panel) {
   };
   const auto& molecule = panel.is_source() ? files_.source_molecule : files_.target_molecule;
   const auto& surroundings = panel.is_source() ? files_.source_surroundings : files_.target_surroundings;
-  if (molecule) add(*molecule, polymer_residues(*molecule), scene_.molecule);
+  if (molecule && scene_.causes.empty()) add(*molecule, polymer_residues(*molecule), scene_.molecule);
+  if (molecule && !scene_.focus.empty() && scene_.molecule != MoleculeStyle::kSticks)
+    add(*molecule, focused_side_chains(*molecule, panel.is_source()), MoleculeStyle::kSticks);
   if (scene_.around_A > 0 && surroundings)
     add(*surroundings, residues_around(*surroundings, scene_.around_A), MoleculeStyle::kSticks);
 }
@@ -187,8 +205,9 @@ void ComparisonScene::add_labels(const Panel& panel) {
   if (scene_.n_labels == 0 || !files_.source_molecule) return;
   for (const ResidueMark& mark : most_different_residues(files_.surface, scene_.n_labels)) {
     const std::string text = residue_name(*files_.source_molecule, mark.residue);
-    for (const auto& prop : make_label(mark, text, scene_.height * scale_factor_ / 60))
-      panel.renderer->AddViewProp(prop);
+    const auto props = make_label(mark, text, scene_.height * scale_factor_ / 60);
+    for (const auto& prop : props) panel.renderer->AddViewProp(prop);
+    labels_.push_back({mark, panel.renderer, props});
   }
 }
 
@@ -214,6 +233,7 @@ void ComparisonScene::add_map_drawings(const Panel& panel) {
 
 void ComparisonScene::fill_panels() {
   parts_.clear();
+  labels_.clear();
   make_offsets();
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     Panel& panel = panels_[p];
@@ -227,6 +247,7 @@ void ComparisonScene::fill_panels() {
     add_lights(panel.renderer);
     for (std::size_t s = 0; scene_.surface && s < panel.sheets.size(); ++s) add_parts(p, s);
     add_molecule(panel);
+    add_causes(panel);
     add_map_drawings(panel);
     // Labels belong to the compared surface.
     if (scene_.layout == Layout::kTurned || p + 1 == panels_.size()) add_labels(panel);
@@ -256,8 +277,13 @@ void ComparisonScene::aim_camera() {
   for (const std::size_t i : shown_) values.push_back(all.empty() ? 0 : all[i]);
   camera_ = choose_camera(scene_, shown_positions_, values, aspect);
   // The outermost surface must fit too, and the labels beside it.
-  double beside_A = scene_.n_labels > 0 ? 6 : 0;
+  double beside_A = scene_.n_labels > 0 || !scene_.causes.empty() ? 6 : 0;
   for (const double offset : scene_.offsets_A) beside_A = std::max(beside_A, offset);
+  if (!scene_.camera && scene_.focus.empty()) {
+    const double all = height_that_fits(camera_, geometry_.cover().positions, aspect) / scene_.zoom;
+    camera_.half_height_A = std::max(camera_.half_height_A, all);
+  }
+  if (!scene_.camera && !scene_.focus.empty()) aim_at_focus(aspect);
   if (!scene_.camera) camera_.half_height_A += beside_A * std::max(1.0, aspect) / scene_.zoom;
 }
 
@@ -289,6 +315,7 @@ void ComparisonScene::write_legend() {
 }
 
 void ComparisonScene::camera_moved() {
+  place_labels();
   gauges_->RemoveAllViewProps();
   add_scene_gauges(gauges_, *this, scale_factor_);
 }

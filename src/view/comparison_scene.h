@@ -13,6 +13,7 @@
 
 #include "view/comparison_files.h"
 #include "view/panels.h"
+#include "view/residue_labels.h"
 #include "view/scene.h"
 #include "view/surface_geometry.h"
 #include "view/surface_mapper.h"
@@ -51,9 +52,12 @@ class ComparisonScene {
   /// The scale of an array; source and target share one.
   const ColourScale& scale(RenderArray array) const;
   const std::string& unit() const { return unit_; }
+  const RunRecord& record() const { return files_.record; }
   /// Whether potentials are looked up at every pixel.
   bool per_fragment() const { return files_.maps.complete() && !scene_.per_vertex; }
   const SurfaceGeometry& geometry() const { return geometry_; }
+  /// The causes that are drawn.
+  const std::optional<ReadingCauses>& causes() const { return files_.causes; }
   /// The scale of the drawings of the maps themselves; nullptr if there are none.
   const ColourScale* map_scale() const { return map_scale_ ? &*map_scale_ : nullptr; }
   /// The renderer of the text, above all others.
@@ -69,6 +73,13 @@ class ComparisonScene {
     vtkSmartPointer<vtkActor> actor;
   };
 
+  /// A label in one view.
+  struct PlacedLabel {
+    ResidueMark mark;
+    vtkSmartPointer<vtkRenderer> renderer;
+    std::vector<vtkSmartPointer<vtkProp>> props;
+  };
+
   void choose_scales(const Scene& scene);
   void lay_out();
   double view_aspect() const;
@@ -78,9 +89,14 @@ class ComparisonScene {
   void add_parts(std::size_t panel, std::size_t sheet);
   void update_looks();
   SurfaceLook look_of(const Panel& panel, const Sheet& sheet) const;
+  void add_causes(const Panel& panel);
   void add_molecule(const Panel& panel);
   void add_labels(const Panel& panel);
   void add_map_drawings(const Panel& panel);
+  void aim_at_focus(double aspect);
+  /// [residue] those that the scene looks at.
+  std::vector<bool> focused_side_chains(const Molecule& molecule, bool is_source) const;
+  void place_labels();
   void make_offsets();
   void write_legend();
 
@@ -97,6 +113,7 @@ class ComparisonScene {
   std::optional<ColourScale> map_scale_;
   std::vector<Panel> panels_;
   std::vector<DrawnPart> parts_;
+  std::vector<PlacedLabel> labels_;
   CameraView camera_;
   vtkRenderWindow* window_ = nullptr;
   double scale_factor_ = 1;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/types.h"
-#include "view/run_record.h"
+#include "io/run_record.h"
 #include "view/surface_file.h"
 
 namespace espdiff {

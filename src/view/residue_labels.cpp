@@ -3,11 +3,13 @@
 
 #include <vtkActor.h>
 #include <vtkBillboardTextActor3D.h>
+#include <vtkCamera.h>
 #include <vtkFreeTypeTools.h>
 #include <vtkLineSource.h>
 #include <vtkNew.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkRenderer.h>
 #include <vtkTextProperty.h>
 
 #include <algorithm>
@@ -78,6 +80,43 @@ std::string residue_name(const Molecule& molecule, int residue) {
                                    [&](const Residue& other) { return other.chain != r.chain; });
   const std::string insertion = r.insertion_code == ' ' ? "" : std::string(1, r.insertion_code);
   return r.name + " " + (several ? r.chain : "") + std::to_string(r.number) + insertion;
+}
+
+bool is_hidden(const std::vector<Triangle>& triangles, const std::vector<Vec3d>& positions, const ResidueMark& mark,
+               Vec3d toward_viewer) {
+  constexpr double kLeastFacing = 0.15;
+  if (dot(mark.outward, toward_viewer) < kLeastFacing) return true;
+  const Vec3d from = mark.place + kPin_A * mark.outward;
+  // Moller and Trumbore's test of a ray with each triangle.
+  for (const Triangle& t : triangles) {
+    const Vec3d a = positions[t[1]] - positions[t[0]], b = positions[t[2]] - positions[t[0]];
+    const Vec3d normal = cross(toward_viewer, b);
+    const double determinant = dot(a, normal);
+    if (std::abs(determinant) < 1e-12) continue;
+    const Vec3d away = from - positions[t[0]];
+    const double u = dot(away, normal) / determinant;
+    if (u < 0 || u > 1) continue;
+    const Vec3d q = cross(away, a);
+    const double v = dot(toward_viewer, q) / determinant;
+    if (v >= 0 && u + v <= 1 && dot(b, q) / determinant > 0) return true;
+  }
+  return false;
+}
+
+void lift_label(const std::vector<vtkSmartPointer<vtkProp>>& label, const ResidueMark& mark, vtkRenderer* renderer) {
+  vtkCamera* camera = renderer->GetActiveCamera();
+  double eye[3], direction[3], range[2];
+  camera->GetPosition(eye);
+  camera->GetDirectionOfProjection(direction);
+  camera->GetClippingRange(range);
+  const Vec3d toward{-direction[0], -direction[1], -direction[2]};
+  const Vec3d end = mark.place + kOffSurface_A * mark.outward;
+  constexpr double kBehindNearPlane = 0.02;
+  const double depth = range[0] + kBehindNearPlane * (range[1] - range[0]);
+  const Vec3d at = end + (dot(Vec3d{eye[0], eye[1], eye[2]} - end, toward) - depth) * toward;
+  for (const auto& prop : label) {
+    if (auto* const text = vtkBillboardTextActor3D::SafeDownCast(prop)) text->SetPosition(at.x, at.y, at.z);
+  }
 }
 
 std::vector<vtkSmartPointer<vtkProp>> make_label(const ResidueMark& mark, const std::string& text, double text_pixels) {

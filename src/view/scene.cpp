@@ -145,6 +145,8 @@ const std::vector<Entry>& entries() {
       ESPDIFF_ENTRY_OF("surface", surface),
       ESPDIFF_ENTRY_OF("molecule", molecule),
       ESPDIFF_ENTRY_OF("around_A", around_A),
+      ESPDIFF_ENTRY_OF("causes", causes),
+      ESPDIFF_ENTRY_OF("focus", focus),
       ESPDIFF_ENTRY_OF("labels", n_labels),
       ESPDIFF_ENTRY_OF("isopotentials", isopotentials),
       ESPDIFF_ENTRY_OF("offsets_A", offsets_A),
@@ -234,6 +236,7 @@ void check(const Scene& s) {
           "the surface's opacity must be above 0, at most 1, and no less than the least opacity");
   require(s.layout != Layout::kSplit || s.molecule == MoleculeStyle::kNone,
           "the layout split draws no molecules, whose halves would not match; use linked");
+  require(s.layout == Layout::kTurned || s.causes.empty(), "causes are drawn in the layout turned");
   require(is_share(s.morph), "a morph goes from 0 (source) to 1 (target), not to " + formatted(s.morph));
   require(is_share(s.split), "a split lies at 0 (left) to 1 (right), not at " + formatted(s.split));
   require(s.zoom >= 0.1 && s.zoom <= 50, "a zoom of " + formatted(s.zoom) + " cannot be drawn; use 0.1 to 50");

@@ -47,7 +47,11 @@ struct Scene {
 
   bool surface = true;
   MoleculeStyle molecule = MoleculeStyle::kNone;
-  double around_A = 0;                ///< ligands, ions and water within this distance of the protein; 0: none
+  double around_A = 0;  ///< ligands, ions and water within this distance of the protein; 0: none
+  /// A reading of the comparison's causes: the source's molecule is coloured by contribution, the reading's patch
+  /// outlined, the largest labelled; empty: none. Its surface is translucent unless an opacity is given.
+  std::string causes;
+  std::string focus;                  ///< the region or fixed patch that the camera looks at; empty for none
   int n_labels = 0;                   ///< number of labelled residues, those with the largest mean |difference|
   std::vector<double> isopotentials;  ///< surfaces of equal potential, of the target's map
   std::vector<double> offsets_A;      ///< offset surfaces, at these distances outside the molecular surface

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "view/camera_view.h"
+#include "view/cause_drawings.h"
 #include "view/comparison_scene.h"
 #include "view/legend.h"
 
@@ -16,7 +17,12 @@ namespace {
 /// Heights from the bottom as fractions of the picture's: legend, names of the views, title.
 constexpr double kLegendShare = 0.19;
 constexpr double kNameShare = 0.03;
-constexpr double kTitleShare = 0.09;
+constexpr double kTitleShare = 0.075;
+/// The line at the top: what is compared, and the verdict.
+constexpr double kHeadShare = 0.045;
+
+/// Behind a verdict that is not TRUSTWORTHY: on a part of the surface, and NOT TRUSTWORTHY.
+constexpr Rgb kPartColour{250, 240, 170}, kWarningColour{255, 196, 120};
 
 /// Short titles for scales side by side.
 std::string short_title(RenderArray array, const std::string& unit) {
@@ -97,24 +103,22 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   } else if (fades) {
     legend.opacity(paper.bar(left, 0.96), scene.scene().opacity);
   }
-  const bool shows_start =
-      std::any_of(scene.panels().begin(), scene.panels().end(), [](const Panel& p) { return p.is_source(); });
-  const bool no_value = scene.scale(sheets.front().array).has_missing();
-  const bool untrusted = scene.geometry().has(SurfacePart::kUntrusted);
-  const bool unmatched = shows_start && scene.geometry().has(SurfacePart::kUnmatched);
+  const bool untrusted = scene.geometry().has_untrusted() && compares_places(sheets.front().array);
+  const bool no_value = !untrusted && scene.scale(sheets.front().array).has_missing();
+  const bool unmatched = scene.geometry().has(SurfacePart::kUnmatched);
+  const char* const unmatched_words = scene.shows_significance() ? "not tested" : "no counterpart";
   const auto needed = [&](bool drawn, const char* meaning) {
     return drawn ? legend.key_width(meaning) + paper.text_height : 0.0;
   };
-  const double all =
-      needed(no_value, "no value") + needed(untrusted, "not trusted") + needed(unmatched, "no counterpart");
+  const double all = needed(no_value, "no value") + needed(untrusted, "not trusted") + needed(unmatched, unmatched_words);
   const double y = paper.height * 0.02 + paper.text_height / 2;
   double x = std::min(paper.width * left, paper.width - all);
-  const auto key = [&](double opacity, const std::string& meaning) {
-    x += legend.key(x, y, kNoValueColour, opacity, meaning) + paper.text_height;
+  const auto key = [&](const char* meaning) {
+    x += legend.key(x, y, kNoValueColour, 1, meaning) + paper.text_height;
   };
-  if (no_value) key(1, "no value");
-  if (untrusted) key(0.3, "not trusted");
-  if (unmatched) legend.hatched_key(x, y, "no counterpart");
+  if (no_value) key("no value");
+  if (untrusted) key("not trusted");
+  if (unmatched) legend.hatched_key(x, y, unmatched_words);
 }
 
 void add_names(Legend& legend, const ComparisonScene& scene, const Paper& paper) {
@@ -131,20 +135,55 @@ void add_names(Legend& legend, const ComparisonScene& scene, const Paper& paper)
   legend.text(x + paper.text_height, y, "target", Align::kLeft, 1.15);
 }
 
+/// As many characters as fit, with "..." in the place of the rest.
+std::string shortened(const std::string& words, double n_fitting) {
+  const auto n = static_cast<std::size_t>(std::max(n_fitting, 8.0));
+  return words.size() <= n ? words : words.substr(0, n - 3) + "...";
+}
+
+/// The compared files on the left, and on the right the verdict, loud where the result is not trusted as a whole.
+void add_head(Legend& legend, const ComparisonScene& scene, const Paper& paper) {
+  const RunRecord& record = scene.record();
+  if (!record.found) return;
+  const double y = paper.height * (1 - kHeadShare / 2), letter = 0.52 * paper.text_height;
+  const std::string names = record.source_name + " to " + record.target_name;
+  const std::string full = "TRUSTWORTHY";
+  if (record.verdict == full) {
+    legend.text(0.015 * paper.width, y, shortened(names, 0.7 * paper.width / letter), Align::kLeft);
+    legend.text(0.985 * paper.width, y, record.verdict, Align::kRight);
+    return;
+  }
+  std::string verdict = record.verdict;
+  if (!record.reasons.empty()) verdict += ": " + record.reasons.front();
+  const double n_names = std::min(0.35 * paper.width / letter, static_cast<double>(names.size()));
+  legend.text(0.015 * paper.width, y, shortened(names, n_names), Align::kLeft);
+  const double left = 0.03 * paper.width + n_names * letter;
+  legend.rectangle({left, y - 0.8 * paper.text_height, paper.width, y + 0.8 * paper.text_height},
+                   record.trustworthy ? kPartColour : kWarningColour);
+  legend.text(left + 0.5 * paper.text_height, y, shortened(verdict, (paper.width - left) / letter - 3), Align::kLeft);
+}
+
 }  // namespace
 
 LegendShares legend_shares(const Scene& scene) {
   if (!scene.legend) return {0, 1};
   const bool has_names = scene.layout != Layout::kTurned || scene.n_views > 1 || !scene.offsets_A.empty();
-  return {kLegendShare + (has_names ? kNameShare : 0), 1 - (scene.title.empty() ? 0.25 : 1) * kTitleShare};
+  return {kLegendShare + (has_names ? kNameShare : 0), 1 - (scene.title.empty() ? 0 : kTitleShare) - kHeadShare};
 }
 
 void add_scene_legend(vtkRenderer* renderer, const ComparisonScene& scene, double scale_factor) {
   const Paper paper = paper_of(scene, scale_factor);
   Legend legend(renderer, paper.text_height);
   if (!scene.scene().title.empty()) {
-    legend.text(paper.width / 2, paper.height * (1 - kTitleShare / 2), scene.scene().title, Align::kCentre, 1.5);
+    legend.text(paper.width / 2, paper.height * (1 - kHeadShare - kTitleShare / 2), scene.scene().title, Align::kCentre,
+                1.5);
   }
+  if (scene.causes()) {
+    const double title = scene.scene().title.empty() ? 0 : kTitleShare;
+    legend.text(paper.width / 2, paper.height * (1 - kHeadShare - title) - paper.text_height,
+                causes_in_words(*scene.causes()), Align::kCentre, 1);
+  }
+  add_head(legend, scene, paper);
   add_names(legend, scene, paper);
   add_scales(legend, scene, paper);
   add_keys(legend, scene, paper);

@@ -8,6 +8,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -93,10 +94,27 @@ void add_potentials(vtkPolyData* data, const SurfaceFile& surface) {
   array->FillValue(0);
   if (surface.potential_difference.empty() && (surface.potential_source.empty() || surface.potential_target.empty()))
     return;
+  std::vector<float> sources, targets;
   for (std::size_t i = 0; i < surface.positions.size(); ++i) {
     const auto [source, target] = potentials_at(surface, i);
+    sources.push_back(source);
+    targets.push_back(target);
+  }
+  sources = filled_at_border(surface, std::move(sources));
+  targets = filled_at_border(surface, std::move(targets));
+  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+    const float source = sources[i], target = targets[i];
     if (std::isfinite(source) && std::isfinite(target)) array->SetTuple3(static_cast<vtkIdType>(i), source, target, 1);
   }
+}
+
+/// What the shaders cut, outline and mark: shares of matched surroundings, of outlined residues (negative: none), and
+/// of trusted surroundings.
+void add_borders(vtkPolyData* data, const SurfaceCover& cover, const std::vector<float>& outlined) {
+  vtkFloatArray* array = add_array(data, "borders", 3);
+  for (std::size_t i = 0; i < cover.matched.size(); ++i)
+    array->SetTuple3(static_cast<vtkIdType>(i), cover.matched[i], outlined.empty() ? -1 : outlined[i],
+                     cover.trusted[i]);
 }
 
 std::vector<Vec3f> floats(const std::vector<Vec3d>& vectors) {
@@ -135,42 +153,60 @@ std::unique_ptr<SurfaceFile> moved_outward(const SurfaceFile& surface, const Sta
   return moved;
 }
 
-SurfaceGeometry::SurfaceGeometry(const SurfaceFile& surface, const RunRecord& record, const MapPair& maps)
-    : surface_(surface), start_(superposed_start(surface, record)), points_(vtkSmartPointer<vtkPolyData>::New()) {
+SurfaceGeometry::SurfaceGeometry(const SurfaceFile& surface, const RunRecord& record, const MapPair& maps,
+                                 const std::vector<int>& outlined)
+    : surface_(surface),
+      start_(superposed_start(surface, record)),
+      cover_(cover_of(surface, start_.positions)),
+      points_(vtkSmartPointer<vtkPolyData>::New()) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToFloat();
   points->SetNumberOfPoints(static_cast<vtkIdType>(surface.positions.size()));
   for (std::size_t i = 0; i < surface.positions.size(); ++i) {
-    const Vec3d p = surface.positions[i];
+    const Vec3d p = cover_.positions[i];
     points->SetPoint(static_cast<vtkIdType>(i), p.x, p.y, p.z);
   }
   points_->SetPoints(points);
-  add_vectors(points_, "normal", surface.normals);
+  add_vectors(points_, "normal", cover_.normals);
   points_->GetPointData()->SetActiveNormals("normal");
   add_vectors(points_, "startMC", start_.positions);
   add_vectors(points_, "startNormalMC", start_.normals);
   const bool source_inside = add_places(points_, "sourcePlace", maps.source.get(), surface.source_positions);
-  const bool target_inside = add_places(points_, "targetPlace", maps.target.get(), surface.positions);
+  const bool target_inside = add_places(points_, "targetPlace", maps.target.get(), cover_.positions);
   inside_maps_ = source_inside && target_inside;
   add_potentials(points_, surface);
-  add_numbers(points_, "displacement", surface.displacement, -1);
-  add_numbers(points_, "slip", surface.slip, -1);
+  add_numbers(points_, "displacement", filled_at_border(surface, surface.displacement), -1);
+  add_numbers(points_, "slip", filled_at_border(surface, surface.slip), -1);
   // Significance ends at a line and is not smoothed.
   add_numbers(points_, "uncertainty",
-              surface.p_family_wise.empty() ? drawn_uncertainty(surface.triangles, surface.uncertainty())
-                                            : surface.p_family_wise,
+              surface.p_family_wise.empty()
+                  ? filled_at_border(surface, drawn_uncertainty(surface.triangles, surface.uncertainty()))
+                  : surface.p_family_wise,
               -1);
   add_numbers(points_, "residueIndex", surface.residue_index, -1);
+  add_borders(points_, cover_, share_of_residues(surface, outlined));
 }
 
-SurfacePart SurfaceGeometry::part_of(std::size_t triangle) const {
-  if (!surface_.is_matched(triangle)) return SurfacePart::kUnmatched;
-  return surface_.is_untrusted(triangle) ? SurfacePart::kUntrusted : SurfacePart::kTrusted;
+bool SurfaceGeometry::draws(SurfacePart part, std::size_t triangle) const {
+  if (surface_.unmatched.empty()) return part == SurfacePart::kMatched;
+  float low = 1, high = 0;
+  for (const std::uint32_t corner : surface_.triangles[triangle]) {
+    low = std::min(low, cover_.matched[corner]);
+    high = std::max(high, cover_.matched[corner]);
+  }
+  return part == SurfacePart::kMatched ? high >= 0.5F : part == SurfacePart::kUnmatched && low < 0.5F;
 }
 
 bool SurfaceGeometry::has(SurfacePart part) const {
   for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
-    if (part_of(i) == part) return true;
+    if (surface_.is_matched(i) == (part == SurfacePart::kMatched)) return true;
+  }
+  return false;
+}
+
+bool SurfaceGeometry::has_untrusted() const {
+  for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
+    if (surface_.is_matched(i) && surface_.is_untrusted(i)) return true;
   }
   return false;
 }
@@ -180,7 +216,7 @@ vtkSmartPointer<vtkPolyData> SurfaceGeometry::part(SurfacePart part) const {
   data->ShallowCopy(points_);
   vtkNew<vtkCellArray> cells;
   for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
-    if (part_of(i) != part) continue;
+    if (!draws(part, i)) continue;
     const Triangle& t = surface_.triangles[i];
     cells->InsertNextCell({static_cast<vtkIdType>(t[0]), static_cast<vtkIdType>(t[1]), static_cast<vtkIdType>(t[2])});
   }

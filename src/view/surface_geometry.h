@@ -7,8 +7,9 @@
 #include <memory>
 #include <vector>
 
+#include "io/run_record.h"
 #include "view/map_pair.h"
-#include "view/run_record.h"
+#include "view/surface_cover.h"
 #include "view/surface_file.h"
 #include "view/surface_mapper.h"
 
@@ -31,24 +32,32 @@ StartSurface superposed_start(const SurfaceFile& surface, const RunRecord& recor
 std::unique_ptr<SurfaceFile> moved_outward(const SurfaceFile& surface, const StartSurface& start,
                                            const RigidTransform& source_to_target, double offset_A);
 
-/// The triangles of one part with the point arrays of kSurfaceAttributes. Parts with the same `points` share their
+/// The triangles of one part with the point arrays of kSurfaceAttributes. Triangles on the smooth border of an
+/// unmatched part are in both parts, and the shaders draw each half once. Parts with the same `points` share their
 /// memory, on the host and on the GPU.
 class SurfaceGeometry {
  public:
-  SurfaceGeometry(const SurfaceFile& surface, const RunRecord& record, const MapPair& maps);
+  /// @param outlined residues whose border is drawn as a line; empty for none
+  SurfaceGeometry(const SurfaceFile& surface, const RunRecord& record, const MapPair& maps,
+                  const std::vector<int>& outlined = {});
 
   /// Has no triangles if the surface has no such part.
   vtkSmartPointer<vtkPolyData> part(SurfacePart part) const;
   bool has(SurfacePart part) const;
+  /// Whether a matched triangle is not trusted.
+  bool has_untrusted() const;
   const StartSurface& start() const { return start_; }
+  /// Where vertices are drawn on the target, those of unmatched parts too.
+  const SurfaceCover& cover() const { return cover_; }
   /// Whether all vertices, and hence all points between them, lie inside both maps.
   bool inside_maps() const { return inside_maps_; }
 
  private:
-  SurfacePart part_of(std::size_t triangle) const;
+  bool draws(SurfacePart part, std::size_t triangle) const;
 
   const SurfaceFile& surface_;
   StartSurface start_;
+  SurfaceCover cover_;
   bool inside_maps_ = true;
   vtkSmartPointer<vtkPolyData> points_;
 };

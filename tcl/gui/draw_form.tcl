@@ -5,13 +5,14 @@ namespace eval ::espdiff::gui {
     array set form {
         draw,color difference draw,surface target draw,range auto draw,low -5 draw,high 5
         draw,uncertain fade draw,limit 2.0 draw,off_target uncertain draw,legend 1 draw,colors red-blue draw,view single draw,mol "" draw,keep 0
+        draw,pick 0
     }
     variable recolouring ""  ;# the `after` script that recolours a drawing
     variable drawn_on {target mapped source source}  ;# the window's word, espdiff's word
 
     proc build_draw {path} {
         variable widget
-        ttk::labelframe $path -text Draw -padding 6
+        ttk::labelframe $path -text Draw -padding {6 3}
         set variable ::espdiff::gui::form
         ttk::combobox $path.color -textvariable ${variable}(draw,color) -state readonly -width 12 \
             -values {difference sign source target slip displacement path_length none}
@@ -60,9 +61,13 @@ namespace eval ::espdiff::gui {
             -variable ::espdiff::gui::form(draw,view) -onvalue linked -offvalue single
         tip $path.views.linked "Linked views of source, target and this: the mouse turns all three; both potentials on the left, what is chosen here on\
             the right. Undraw puts VMD's view back"
-        pack $path.views.linked $path.views.keep -side left -padx {0 10}
+        ttk::checkbutton $path.views.pick -text "Name clicks" -variable ${variable}(draw,pick) \
+            -command {::espdiff::gui::guard ::espdiff::gui::set_mouse_mode}
+        tip $path.views.pick "A click on the surface names its residue, both potentials, their difference and the slip:\
+            VMD's mouse mode Label > Atoms (key 1). Without it the mouse turns the view (key r)"
+        pack $path.views.linked $path.views.keep $path.views.pick -side left -padx {0 10}
         grid $path.views -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
-        set widget(draw,linked) $path.views.linked
+        foreach name {linked pick} { set widget(draw,$name) $path.views.$name }
         build_draw_buttons $path.buttons
         grid $path.buttons -row 4 -column 0 -columnspan 4 -sticky ew -pady {4 0}
         grid configure $path.label_surface -padx {16 6}
@@ -90,6 +95,20 @@ namespace eval ::espdiff::gui {
         set ::espdiff::gui::widget(draw,unit) $path.unit
     }
 
+    proc set_mouse_mode {} {
+        variable form
+        mouse mode [expr {$form(draw,pick) ? "labelatom" : "rotate"}]
+    }
+
+    # VMD's keys and menu change it too.
+    proc notice_mouse_mode {args} {
+        variable form
+        set form(draw,pick) [string match "label*" $::vmd_mouse_mode]
+    }
+
+    # What a click on the surface hit.
+    proc show_picked {handle text} { show_message "$handle, [string map {-> \u2192} $text]" }
+
     # The slider's place is the logarithm of the range, in automatic ranges.
     proc slide_range {place} {
         variable form
@@ -114,23 +133,21 @@ namespace eval ::espdiff::gui {
     proc build_draw_buttons {path} {
         variable widget
         ttk::frame $path
-        button $path.draw Draw ::espdiff::gui::draw 0
         button $path.undraw Undraw ::espdiff::gui::undraw 0
         button $path.picture Picture... ::espdiff::gui::save_picture 0
         button $path.map "Add map to" ::espdiff::gui::add_map 0
         ttk::combobox $path.mol -textvariable ::espdiff::gui::form(draw,mol) -state readonly -width 18 \
             -postcommand {::espdiff::gui::guard ::espdiff::gui::update_draw}
-        tip $path.draw "Draw the surface in VMD's window, and replace this result's older drawing"
         tip $path.undraw "Remove this result's drawing"
         tip $path.picture "A figure for print in VMD's view (PNG), or VMD's window as it is (Targa)"
         tip $path.map "Add what is chosen under Colour by as a volumetric map to this molecule, for Color Volume and\
             Isosurface representations"
         tip $path.mol "Molecule that gets the map"
-        grid $path.draw $path.undraw $path.picture $path.map $path.mol -sticky ew -padx {0 6}
+        grid $path.undraw $path.picture $path.map $path.mol -sticky ew -padx {0 6}
         grid configure $path.map -padx {16 6}
         grid configure $path.mol -padx 0
-        grid columnconfigure $path 4 -weight 1
-        foreach name {draw undraw picture map} { set widget($name) $path.$name }
+        grid columnconfigure $path 3 -weight 1
+        foreach name {undraw picture map} { set widget($name) $path.$name }
         set widget(draw,mol) $path.mol
     }
 

@@ -38,7 +38,7 @@ namespace eval ::espdiff::gui {
     proc build_endpoint {path side title} {
         variable form
         variable widget
-        ttk::labelframe $path -text $title -padding 6
+        ttk::labelframe $path -text $title -padding {6 3}
         grid columnconfigure $path 1 -weight 1
         if {[in_vmd]} {
             set form($side,kind) mol
@@ -130,33 +130,40 @@ namespace eval ::espdiff::gui {
         foreach name {unit label_unit} { show_if $has_map $parent.$name }
         update_prepare_row $side
         show_if [expr {!$has_map}] $parent.choice
-        set choice [expr {$map eq "automatic" ? [automatic_choice] : ""}]
+        set choice [expr {$map eq "automatic" ? [automatic_choice $side] : ""}]
         $widget($side,choice) configure -text $choice
         set ::espdiff::gui::tips($widget($side,choice)) $choice
         foreach name {file map} { $widget($side,$name) xview [$widget($side,$name) index end] }
     }
 
-    # What `automatic` takes for the molecules chosen now, as "Poisson-Boltzmann: charges without explicit water".
-    proc automatic_choice {} {
-        variable form
+    # What `automatic` takes for the molecules chosen now, as "Poisson-Boltzmann: charges without explicit water"; of shapes
+    # alone the reason by this side's own molecule, if it has no charges.
+    proc automatic_choice {side} {
         variable computed
         set endpoints {}
-        foreach side {source target} {
-            if {$form($side,kind) eq "mol"} {
-                set mol [number_of $form($side,mol)]
-                if {$mol eq "" || $mol ni [molinfo list]} { return "" }
-                lappend endpoints [list mol $mol]
-            } else {
-                set path [string trim $form($side,file)]
-                if {![file isfile $path]} { return "" }
-                lappend endpoints [list file $path]
-            }
+        foreach one [list $side [other_side $side]] {
+            set endpoint [chosen_structure $one]
+            if {$endpoint eq ""} { return "" }
+            lappend endpoints $endpoint
         }
         if {[catch { ::espdiff::usual_potential_of $endpoints } choice]} { return "" }
         lassign $choice kind because
         if {$kind eq "none"} { return "Shapes alone: $because" }
         foreach {title word} $computed { if {$word eq $kind} { return "$title: $because" } }
         return "$kind: $because"
+    }
+
+    proc other_side {side} { expr {$side eq "source" ? "target" : "source"} }
+
+    # {mol ID} or {file PATH}; empty while nothing is chosen.
+    proc chosen_structure {side} {
+        variable form
+        if {$form($side,kind) eq "mol"} {
+            set mol [number_of $form($side,mol)]
+            return [expr {$mol eq "" || $mol ni [molinfo list] ? "" : [list mol $mol]}]
+        }
+        set path [string trim $form($side,file)]
+        expr {[file isfile $path] ? [list file $path] : ""}
     }
 
     proc show_if {shown path} {

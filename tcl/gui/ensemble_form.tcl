@@ -23,11 +23,11 @@ namespace eval ::espdiff::gui {
 
     proc build_replicate_list {path} {
         variable widget
-        ttk::treeview $path.list -columns {group label what} -show headings -height 4 -selectmode extended \
+        ttk::treeview $path.list -columns {group label what} -show headings -style Espdiff.Treeview -height 4 -selectmode extended \
             -yscrollcommand [list $path.scroll set]
         foreach {column title width} {group Group 80 label Replicate 120 what "Molecule or file" 200} {
             $path.list heading $column -text $title -anchor w
-            $path.list column $column -width $width
+            $path.list column $column -width [scaled $width]
         }
         ttk::scrollbar $path.scroll -orient vertical -command [list $path.list yview] -takefocus 0
         ttk::frame $path.buttons

@@ -23,12 +23,12 @@ namespace eval ::espdiff::gui {
         tip $path.top.table "The answer as the command line prints it: replicates, noise, patches, residues, warnings"
         pack $path.top.table $path.top.draw -side right -padx {6 0}
         pack $path.top.answer -side left -fill x -expand 1
-        ttk::treeview $path.patches -columns {patch area difference interval p residues} -show headings -height 4 \
+        ttk::treeview $path.patches -columns {patch area difference interval p residues} -show headings -style Espdiff.Treeview -height 4 \
             -selectmode browse
         foreach {column title width stretch} {patch "" 30 0 area "Area (\u00c5\u00b2)" 75 0 difference Difference 80 0
             interval "95 % interval" 115 0 p p 55 0 residues Residues 160 1} {
             $path.patches heading $column -text $title -anchor w
-            $path.patches column $column -width $width -stretch $stretch
+            $path.patches column $column -width [scaled $width] -stretch $stretch
         }
         bind $path.patches <<TreeviewSelect>> {::espdiff::gui::guard_in ensemble ::espdiff::gui::choose_patch}
         tip $path.patches "Pieces of surface whose difference is significant; a click shows one, and its mean in every frame"
@@ -160,7 +160,15 @@ namespace eval ::espdiff::gui {
                     \u00c5\u00b2."
             }
         }
-        foreach warning [::espdiff::value_or $result warnings {}] { append text "\n\u2022 $warning" }
+        return $text[shown_warnings [::espdiff::value_or $result warnings {}]]
+    }
+
+    # So many that patches and series keep their place.
+    proc shown_warnings {warnings} {
+        set text ""
+        foreach warning [lrange $warnings 0 1] { append text "\n\u2022 $warning" }
+        set more [expr {[llength $warnings] - 2}]
+        if {$more > 0} { append text "\n\u2022 $more more under Table..." }
         return $text
     }
 

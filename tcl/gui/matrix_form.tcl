@@ -25,14 +25,14 @@ namespace eval ::espdiff::gui {
 
     proc build_variant_list {path} {
         variable widget
-        ttk::treeview $path.list -columns {label group what} -show headings -height 5 -selectmode extended \
+        ttk::treeview $path.list -columns {label group what} -show headings -style Espdiff.Treeview -height 5 -selectmode extended \
             -yscrollcommand [list $path.scroll set]
         $path.list heading label -text Label -anchor w
         $path.list heading group -text Group -anchor w
         $path.list heading what -text "Molecule or file" -anchor w
-        $path.list column label -width 130
-        $path.list column group -width 80 -stretch 0
-        $path.list column what -width 240
+        $path.list column label -width [scaled 130]
+        $path.list column group -width [scaled 80] -stretch 0
+        $path.list column what -width [scaled 240]
         ttk::scrollbar $path.scroll -orient vertical -command [list $path.list yview] -takefocus 0
         ttk::frame $path.buttons
         button $path.buttons.files "Add files..." ::espdiff::gui::browse_variants

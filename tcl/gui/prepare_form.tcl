@@ -2,6 +2,8 @@
 
 namespace eval ::espdiff::gui {
     variable preparing ""             ;# handle of the running preparation
+    variable to_prepare {}   ;# sides that are prepared next, before they are compared
+    variable compares_next 0 ;# whether the last preparation is followed by the comparison
 
     proc build_prepare_row {path side} {
         variable widget
@@ -29,7 +31,7 @@ namespace eval ::espdiff::gui {
         set lacks [expr {$form($side,kind) eq "mol" && $mol ne "" && ![has_charges $mol]}]
         show_if $lacks $widget($side,charges)
         if {!$lacks} return
-        $widget($side,charges_text) configure -text "No charges: [file_types $mol] files have none"
+        $widget($side,charges_text) configure -text "No charges in [file_types $mol]"
         set_enabled [expr {$preparing eq ""}] $widget($side,prepare)
     }
 
@@ -58,6 +60,67 @@ namespace eval ::espdiff::gui {
         if {$path ne ""} { start_preparation $side $path }
     }
 
+    # The sides whose molecules have no charges and would get a computed potential.
+    proc unprepared_sides {} {
+        variable form
+        set sides {}
+        foreach side {source target} {
+            set mol [number_of $form($side,mol)]
+            if {$form($side,kind) ne "mol" || $mol eq "" || ![is_computed_map [string trim $form($side,map)]]} continue
+            if {$mol in [molinfo list] && ![has_charges $mol]} { lappend sides $side }
+        }
+        return $sides
+    }
+
+    # Molecules without charges: asks whether to prepare them, compare, and draw. Returns whether the answer takes the
+    # place of the comparison.
+    proc offer_preparation {} {
+        variable form
+        variable window
+        variable to_prepare
+        variable compares_next
+        set sides [expr {[in_vmd] ? [unprepared_sides] : {}}]
+        if {$sides eq "" || [dict get [::espdiff::core::build] pdb2pqr] eq ""} { return 0 }
+        foreach side $sides { lappend names $form($side,mol) }
+        set names [::espdiff::join_words [lsort -unique $names] and]
+        set answer [tk_messageBox -parent $window -type yesnocancel -icon question \
+            -title "Surface Potential Comparison" -message "No charges: $names" \
+            -detail "Prepare by PDB2PQR (hydrogens, charges and radii, by the settings' page Input), compare, and\
+                draw? The prepared structures are saved beside the files and loaded.\n\nNo compares the shapes alone."]
+        if {$answer eq "cancel"} { return 1 }
+        if {$answer ne "yes"} { return 0 }
+        set to_prepare $sides
+        set compares_next 1
+        prepare_next
+        return 1
+    }
+
+    # Prepares the next side of those to come; after the last one compares and draws.
+    proc prepare_next {} {
+        variable to_prepare
+        variable compares_next
+        variable draw_when_done
+        if {$to_prepare ne ""} {
+            set to_prepare [lassign $to_prepare side]
+            start_preparation $side [prepared_path $side]
+        } elseif {$compares_next} {
+            set compares_next 0
+            set draw_when_done [start_compare [endpoint source] [endpoint target] [setting_options]]
+        }
+    }
+
+    # A new name beside the molecule's file, or in the working folder if nothing can be written there.
+    proc prepared_path {side} {
+        variable form
+        set mol [number_of $form($side,mol)]
+        set folder [file dirname [file normalize [lindex [molinfo $mol get filename] 0 0]]]
+        if {![file writable $folder]} { set folder [pwd] }
+        set name [file join $folder [file rootname [file tail [molinfo $mol get name]]]-prepared]
+        set path $name.pqr
+        for {set i 2} {[file exists $path]} {incr i} { set path $name-$i.pqr }
+        return $path
+    }
+
     # Prepares the side's molecule in the background.
     proc start_preparation {side path} {
         variable running
@@ -81,12 +144,14 @@ namespace eval ::espdiff::gui {
     proc finish_preparation {side handle} {
         variable running
         variable preparing
+        variable compares_next
         variable form
         if {$handle ne $running} return
         end_run
         set preparing ""
         update_prepare_row $side
         if {[catch_labelled { espdiff wait $handle } message options]} {
+            forget_preparations
             espdiff delete $handle
             set cancelled [expr {[lindex [dict get $options -errorcode] 1] eq "CANCELLED"}]
             if {$cancelled} { show_message "Cancelled." } else { show_message $message error }
@@ -97,11 +162,21 @@ namespace eval ::espdiff::gui {
         set top [molinfo top]
         set mol [mol new [dict get $result file] type pqr waitfor all]
         if {$top ne ""} { mol top $top }
+        mol off [number_of $form($side,mol)]  ;# the prepared molecule is in the same place
         set form($side,mol) "$mol: [molinfo $mol get name]"
         choose_molecule $side
         foreach other {source target} { update_endpoint $other }
-        show_message [preparation_words [dict get $result preparation]]
+        set words [preparation_words [dict get $result preparation]]
+        show_message $words
+        if {$compares_next} { vmdcon -info "espdiff) $words" }  ;# the comparison's messages follow
+        prepare_next
         return $mol
+    }
+
+    # A preparation failed or was cancelled: nothing follows it.
+    proc forget_preparations {} {
+        variable to_prepare {}
+        variable compares_next 0
     }
 
     # "1686 hydrogens added, net charge -3; HIS 126 of chain A: HIE; ..."

@@ -242,20 +242,8 @@ namespace eval ::espdiff::gui {
         return [concat $rows $without]
     }
 
-    # "A:TRP90", "A:TRP90\u2192SER" where it is mutated, "A:TRP90\u2192TRP91" where its partner has another number.
-    proc residue_name {row} {
-        set name "[dict get $row name][dict get $row number][dict get $row insertion]"
-        if {[dict get $row chain] ni {"" X " "}} { set name "[dict get $row chain]:$name" }
-        set other [dict get $row target_name]
-        if {$other eq ""} { return $name }
-        set number "[dict get $row target_number][dict get $row target_insertion]"
-        if {$number ne "[dict get $row number][dict get $row insertion]"} {
-            append name "\u2192$other$number"
-        } elseif {$other ne [dict get $row name]} {
-            append name "\u2192$other"
-        }
-        return $name
-    }
+    # As the package names it, with an arrow.
+    proc residue_name {row} { string map {-> \u2192} [::espdiff::residue_name $row] }
 
     # Fills the rows in order; selected rows stay selected.
     proc fill_residues {} {

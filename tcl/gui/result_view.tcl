@@ -15,7 +15,7 @@ namespace eval ::espdiff::gui {
 
     proc build_results {path} {
         variable widget
-        ttk::labelframe $path -text Result -padding 6
+        ttk::labelframe $path -text Result -padding {6 3}
         ttk::frame $path.top
         ttk::combobox $path.top.list -textvariable ::espdiff::gui::chosen_result -state readonly -width 24 \
             -postcommand {::espdiff::gui::guard ::espdiff::gui::list_results}

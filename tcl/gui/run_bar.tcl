@@ -40,10 +40,17 @@ namespace eval ::espdiff::gui {
         $path.message configure -state disabled
         bind $path.message <Configure> ::espdiff::gui::fit_message
         bind $path.message <ButtonPress-1> {focus %W}
-        grid $path.compare $path.cancel $path.swap $path.bar $path.script $path.help -sticky ew -padx {0 6}
+        set buttons [list $path.compare $path.cancel $path.swap]
+        # Beside Compare, so that a small screen has it without scrolling to the page's end.
+        if {[in_vmd]} {
+            lappend buttons [button $path.draw Draw ::espdiff::gui::draw 0]
+            tip $path.draw "Draw the surface in VMD's window, as chosen under Draw"
+            set widget(draw) $path.draw
+        }
+        grid {*}$buttons $path.bar $path.script $path.help -sticky ew -padx {0 6}
         grid configure $path.help -padx 0
-        grid columnconfigure $path 3 -weight 1
-        grid $path.message -columnspan 6 -sticky ew -pady {2 0}
+        grid columnconfigure $path [llength $buttons] -weight 1
+        grid $path.message -columnspan [expr {[llength $buttons] + 3}] -sticky ew -pady {2 0}
         foreach name {compare cancel swap bar script message} { set widget($name) $path.$name }
         $path.compare configure -default active
         set_enabled 0 $path.cancel
@@ -81,6 +88,7 @@ namespace eval ::espdiff::gui {
         variable running
         if {$running ne ""} return
         show_message ""
+        if {[offer_preparation]} return
         set source [endpoint source]
         set target [endpoint target]
         if {![catch { start_compare $source $target [setting_options] } message options]} return
@@ -209,6 +217,7 @@ namespace eval ::espdiff::gui {
             return
         }
         show_message "$running was deleted before it finished."
+        forget_preparations
         end_run
     }
 
@@ -218,6 +227,7 @@ namespace eval ::espdiff::gui {
         set handle $running
         if {$handle eq ""} return
         end_run
+        forget_preparations
         forget $handle
         show_message "Cancelled: the window was closed."
         if {$handle in [espdiff handles]} { espdiff delete $handle }

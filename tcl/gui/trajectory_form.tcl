@@ -5,7 +5,7 @@ namespace eval ::espdiff::gui {
     array set form {trajectory,mol "" trajectory,file "" trajectory,sel "not water" trajectory,frames all
         trajectory,against "the frame" trajectory,reference 0 trajectory,map automatic trajectory,unit "as the map says"
         trajectory,csv trajectory.csv trajectory,resume 0 trajectory,skip 0
-        trajectory,steps 0 trajectory,residues 0 trajectory,other ""}
+        trajectory,steps 0 trajectory,residues 0 trajectory,other "" trajectory,average 1}
     variable references {"the frame" "the frame before" "the same frame of"}
     variable automatic_trajectory ""  ;# the molecule chosen automatically, until the user chooses
 
@@ -117,7 +117,13 @@ namespace eval ::espdiff::gui {
         pack $path.options.resume $path.options.skip $path.options.residues -side left -padx {0 10}
         grid $path.options -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
         ttk::label $path.note -text "The settings are those of the tab Pair." -foreground gray40
-        grid $path.note -row 4 -column 0 -columnspan 2 -sticky w
+        grid $path.note -row 5 -column 0 -columnspan 4 -sticky w
+        if {[in_vmd]} {
+            build_average $path.average
+            grid $path.average -row 4 -column 0 -columnspan 2 -sticky w
+        } else {
+            grid configure $path.note -row 4 -columnspan 2
+        }
         ttk::checkbutton $path.steps -text "in small steps" -variable ::espdiff::gui::form(trajectory,steps)
         tip $path.steps "Each surface goes on from the frame before, where that is much nearer than the reference:\
             takes half the time, and loses a little more of the surface. A frame that is chosen below is\
@@ -127,6 +133,20 @@ namespace eval ::espdiff::gui {
         set widget(trajectory,csv) $path.csv.name
         set widget(trajectory,steps) $path.steps
         foreach name {resume skip residues} { set widget(trajectory,$name) $path.options.$name }
+    }
+
+    # The water of single frames makes most of their potential by PME.
+    proc build_average {path} {
+        ttk::frame $path
+        ttk::label $path.over -text "Average over"
+        ttk::spinbox $path.n -textvariable ::espdiff::gui::form(trajectory,average) -width 4 -from 1 -to 9999 -increment 1
+        ttk::label $path.frames -text "frames"
+        foreach name {over n frames} {
+            tip $path.$name "Of PME with explicit water: each frame gets the mean potential over so many frames around it,\
+                superposed on it. 1: its own, which is mostly that of the water at that moment"
+        }
+        pack $path.over $path.n $path.frames -side left -padx {0 4}
+        set ::espdiff::gui::widget(trajectory,average) $path.n
     }
 
     # VMD's current molecules and data sets.
@@ -228,6 +248,18 @@ namespace eval ::espdiff::gui {
         return $options
     }
 
+    # With the average that the form asks for.
+    proc averaged_word {word} {
+        variable form
+        set n [string trim $form(trajectory,average)]
+        if {![string is integer -strict $n] || $n < 1} { error "Average over: '$n' is not a number of frames from 1" }
+        if {$n == 1} { return $word }
+        if {[lindex $word 0] ne "pme"} {
+            error "Average over $n frames: only PME, explicit water, is averaged; choose it as Potential, or average over 1"
+        }
+        return [concat $word [list average $n]]
+    }
+
     proc other_trajectory {} {
         variable form
         set other [string trim $form(trajectory,other)]
@@ -243,7 +275,7 @@ namespace eval ::espdiff::gui {
         variable computed
         set map [string trim $form(trajectory,map)]
         if {$map in {none ""}} { return none }
-        if {[is_computed_map $map]} { return [computed_map_word $map] }
+        if {[is_computed_map $map]} { return [averaged_word [computed_map_word $map]] }
         if {[in_vmd] && [number_of $map] ne ""} { return [number_of $map] }
         return [list [expr {[string first % $map] >= 0 ? "files" : "file"}] $map]
     }

@@ -141,7 +141,7 @@ namespace eval ::espdiff::gui {
             set cancelled [expr {[lindex [dict get $options -errorcode] 1] eq "CANCELLED"}]
             if {$cancelled} {
                 set result "Stopped: the file has [llength $trajectory_rows] rows. With\
-                    \u201cresume\u201d, Run computes the rest."
+                    \u201cresume\u201d, Compare computes the rest."
             }
             tell_in trajectory $result [expr {$cancelled ? "note" : "error"}]
         } else {

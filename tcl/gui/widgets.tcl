@@ -200,6 +200,9 @@ namespace eval ::espdiff::gui {
         return ", about [format %.1f [expr {$left / 3600}]] h left"
     }
 
+    # A width that holds a text in letters of the usual size, for the letters of this screen.
+    proc scaled {pixels} { expr {round($pixels * max(1.0, [font metrics TkDefaultFont -linespace] / 17.0))} }
+
     proc bold_font {} {
         if {"EspdiffBold" ni [font names]} { font create EspdiffBold {*}[font actual TkDefaultFont] -weight bold }
         return EspdiffBold

@@ -84,7 +84,7 @@ namespace eval ::espdiff::gui {
     # Ttk's rows, arrows, marks and margins have fixed sizes in pixels, which are too small for large fonts.
     proc style_for_screen {} {
         set line [font metrics TkDefaultFont -linespace]
-        ttk::style configure Espdiff.Treeview -rowheight [expr {$line + 4}]
+        ttk::style configure Espdiff.Treeview -rowheight [expr {$line + 3}]
         if {$line < 22} return
         set size [expr {round(0.65 * $line)}]
         foreach style {TCombobox TSpinbox TScrollbar} { ttk::style configure $style -arrowsize $size }
@@ -127,10 +127,10 @@ namespace eval ::espdiff::gui {
         grid configure $body.sides.target -padx {6 0}
         build_settings $body.settings
         build_results $body.results
-        pack $body.sides $body.settings $body.results -fill x -padx 8 -pady {6 0}
+        pack $body.sides $body.settings $body.results -fill x -padx 8 -pady {4 0}
         if {[in_vmd]} {
             build_draw $body.draw
-            pack $body.draw -fill x -padx 8 -pady 6
+            pack $body.draw -fill x -padx 8 -pady 4
         } else {
             pack [ttk::label $body.draw -text "Drawing needs VMD. Export writes the surface for ParaView (.vtp)."] \
                 -fill x -padx 8 -pady 6
@@ -171,8 +171,9 @@ namespace eval ::espdiff::gui {
         if {![in_vmd]} return
         set traced {::vmd_molecule ::espdiff::gui::update_soon ::vmd_initialize_structure ::espdiff::gui::update_soon
             ::vmd_trajectory_read ::espdiff::gui::update_soon ::vmd_frame ::espdiff::gui::mark_now
-            ::vmd_quit ::espdiff::gui::save_settings}
+            ::vmd_mouse_mode ::espdiff::gui::notice_mouse_mode ::vmd_quit ::espdiff::gui::save_settings}
         foreach {name command} $traced { trace add variable $name write $command }
+        if {[info exists ::vmd_mouse_mode]} notice_mouse_mode
     }
 
     # VMD calls this during its change.

@@ -37,6 +37,8 @@ TEST_CASE("old, CHARMM and current atom names are normalized to one spelling") {
   CHECK(normalized_atom_name("2HG1") == "HG12");
   CHECK(normalized_atom_name(" HN ") == "H");
   CHECK(normalized_atom_name("OT2") == "OXT");
+  CHECK(normalized_atom_name("C5M", 't') == "C7");  // thymine's; elsewhere it is another atom
+  CHECK(normalized_atom_name("C5M", 'u') == "C5M");
   CHECK(normalized_atom_name("O1P") == "OP1");
   CHECK(normalized_atom_name("C5*") == "C5'");
   CHECK(normalized_atom_name("1H5*") == "H5'");

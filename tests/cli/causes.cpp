@@ -35,11 +35,29 @@ struct CausesFiles {
     }
     return text;
   }
+  /// The first row with a whole lysine at its end, whose second angle is as in the file or half a turn from it.
+  static std::string with_lysine(int half_turns) {
+    std::string text = row(false);
+    const struct {
+      const char* name;
+      double x, y, z, charge;
+    } more[] = {
+        {"CG", 0.7, 1.2, 1.6, 0}, {"CD", 0.1, 1.1, 3.0, 0}, {"CE", 0.8, 2.3, 3.8, 0.3}, {"NZ", 0.2, 2.2, 5.2, 0.7}};
+    int serial = 30;
+    for (const auto& atom : more) {
+      char line[128];
+      const double side = half_turns > 0 && serial > 30 ? -1 : 1;  // mirrored beyond the second bond: another angle
+      std::snprintf(line, sizeof line, "ATOM  %5d  %-3s LYS A   6    %8.3f%8.3f%8.3f %7.4f %6.4f\n", ++serial,
+                    atom.name, 24.8 + side * atom.x + (side < 0 ? 1.4 : 0), 1.9 + atom.y, atom.z, atom.charge, 1.7);
+      text += line;
+    }
+    return text;
+  }
   CausesFiles() : source(folder.write("a.pqr", row(false))), target(folder.write("b.pqr", row(true))) {}
 
   Outcome run(const std::string& options, const std::string& other = "") const {
     return run_espdiff("compare " + source + " " + (other.empty() ? target : other) + " -o " + folder.file("out") +
-                       " --domains none " + options);
+                       " --domains none --exit-zero --overwrite " + options);
   }
   Json json() const { return Json::parse(read_file(folder.file("out.json"))); }
 };
@@ -81,6 +99,102 @@ TEST_CASE("causes: contributions add up to the metric, in JSON, CSV and the tabl
   }
 }
 
+TEST_CASE("causes: a scan says what residues' charges do to the reading, and writes a table") {
+  const CausesFiles files;
+  const std::string options = "--potential pb --pb-spacing 0.8 --region '//A/1-3' --causes region --causes whole";
+  const Outcome outcome = files.run(options + " --scan");
+  REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  CHECK(contains(outcome.out, "scan, kT/e in the source, shape and protonation kept: without its charges"));
+  const Json reading = files.json()["causes"][0], scan = reading["scan"];
+  CHECK(scan["kept"] == "shape and protonation");
+  const espdiff::CsvTable table = espdiff::read_csv(files.folder.file("out.scan.csv"));
+  CHECK(table.rows.size() == 2 * 6);
+  for (const Json& one : scan["largest"]) {
+    for (const Json& cause : reading["largest"]) {
+      if (cause["residue"] != one["residue"]) continue;
+      CHECK(one["removed"]["source"].get<double>() == doctest::Approx(-cause["source"].get<double>()));
+      CHECK(one["removed"]["target"].get<double>() == doctest::Approx(-cause["target"].get<double>()));
+    }
+    CHECK(one["plus_one"]["source"].get<double>() == -one["minus_one"]["source"].get<double>());
+  }
+  // Residue 6 has one charge of +1 in its side chain, so that one more there doubles what it adds but for the backbone.
+  for (const Json& one : scan["largest"]) {
+    if (one["residue"] == "LYS 6")
+      CHECK(one["plus_one"]["source"].get<double>() ==
+            doctest::Approx(-one["removed"]["source"].get<double>()).epsilon(0.3));
+  }
+  REQUIRE(files.run(options).status == 0);
+  CHECK_FALSE(files.json()["causes"][0].contains("scan"));
+}
+
+TEST_CASE("causes: side chains in other places give an interval, the same at each run") {
+  const CausesFiles files;
+  const std::string source = files.folder.write("long.pqr", files.with_lysine(0)),
+                    target = files.folder.write("turned.pqr", files.with_lysine(1));
+  for (const std::string potential : {"--potential pb --pb-spacing 0.8", "--potential coulomb"}) {
+    const std::string command = "compare " + source + " " + target + " -o " + files.folder.file("out") +
+                                " --domains none --region '//A/3' --causes region --causes whole --side-chains 200 " +
+                                potential;
+    const Outcome outcome = run_espdiff(command);
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const Json reading = files.json()["causes"][0], chains = reading["side_chains"];
+    const bool is_exact = potential == "--potential coulomb";
+    CHECK(chains["order"] == (is_exact ? "exact" : "first"));
+    CHECK(contains(outcome.out, "with 1 side chain in other places (LYS 6)"));
+    CHECK(contains(outcome.out, is_exact ? "exact at these points" : "to first order: the shape"));
+    CHECK(chains["low"].get<double>() < chains["mean"].get<double>());
+    CHECK(chains["mean"].get<double>() < chains["high"].get<double>());
+    CHECK(chains["residues"].size() == 2);  // in both states
+    CHECK_FALSE(files.json()["causes"][1].contains("side_chains"));
+    const bool spans_zero = chains["low"] < 0 && chains["high"] > 0;
+    CHECK(chains["spans_zero"] == spans_zero);
+    CHECK(contains(outcome.out, "the sign of the difference is not known (region)") == spans_zero);
+    // The file's own placement shifts nothing; the others do.
+    const espdiff::CsvTable table = espdiff::read_csv(files.folder.file("out.side-chains.csv"));
+    CHECK(table.number(0, table.rows[0].size() - 1) == 0);
+    CHECK(table.number(1, table.rows[0].size() - 1) != 0);
+    REQUIRE(run_espdiff(command).status == 0);
+    CHECK(files.json()["causes"][0]["side_chains"] == chains);
+    REQUIRE(run_espdiff(command + " --side-chain-seed 2").status == 0);
+    CHECK(files.json()["causes"][0]["side_chains"] != chains);
+  }
+}
+
+TEST_CASE("causes: contributions are a quantity of residues, of pairs and along frames") {
+  const CausesFiles files;
+  const std::string reading = " --potential coulomb --region '//A/1-3' --causes region ";
+  const std::string pdb = files.folder.file("c.pdb"), quantity = " --residue-quantity contribution";
+  REQUIRE(files.run(reading + "--residue-pdb " + pdb + quantity).status == 0);
+  CHECK(contains(read_file(pdb), "B FACTOR: contribution [kT/e"));
+  const espdiff::CsvTable of_pair = espdiff::read_csv(files.folder.file("out.causes.csv"));
+  const std::string run = "trajectory " + files.source + " " + files.target + " " + files.source +
+                          " --domains none -o " + files.folder.file("t.csv") + " --overwrite" + reading;
+  const std::string table = files.folder.file("r.csv");
+  const Outcome outcome = run_espdiff(run + "--residues " + table + quantity);
+  REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const espdiff::CsvTable frames = espdiff::read_csv(table);
+  REQUIRE(frames.rows.size() == 2);
+  const std::size_t difference = of_pair.columns.size() - 10;
+  REQUIRE(contains(of_pair.columns[difference], "difference ["));
+  for (std::size_t row = 0; row < of_pair.rows.size(); ++row) {
+    const std::string residue = "A:" + of_pair.rows[row][4] + " " + of_pair.rows[row][2];
+    const std::size_t column = frames.require(residue == "A:GLU 3" ? "A:SER 3" : residue);
+    CHECK(frames.number(0, column) == doctest::Approx(of_pair.number(row, difference)).epsilon(1e-4));
+    CHECK(std::fabs(frames.number(1, column)) < 1e-4);  // the source itself; charges make up to 80 kT/e
+  }
+  CHECK(contains(run_espdiff(run).err,
+                 "--causes of a trajectory are written as a table of residues: give --residues "
+                 "FILE and --residue-quantity contribution"));
+  CHECK(contains(run_espdiff(run + "--causes whole --residues " + table + quantity).err,
+                 "--causes: a trajectory has those of one reading"));
+  CHECK(contains(run_espdiff(run + "--scan --residues " + table + quantity).err, "--scan is of one pair"));
+  CHECK(contains(run_espdiff(run + "--side-chains 9 --residues " + table + quantity).err,
+                 "--side-chains is of one pair"));
+  const Outcome without = files.run("--potential coulomb --residue-pdb " + pdb + quantity);
+  CHECK(without.status == 2);
+  CHECK(contains(without.err, "contribution is what a residue adds to a reading: give --causes region"));
+}
+
 TEST_CASE("causes: a state compared with itself has none") {
   const CausesFiles files;
   const Outcome outcome =
@@ -102,6 +216,12 @@ TEST_CASE("causes: what has none is refused in one line") {
     return outcome.err;
   };
   CHECK(contains(refused("--causes everything"), "--causes: 'everything' is not whole, region, patch NAME"));
+  CHECK(contains(refused("--scan"), "--scan is of a reading: give --causes as well, such as --causes whole"));
+  CHECK(contains(refused("--side-chains 5"), "--side-chains is of a reading: give --causes as well"));
+  CHECK(contains(refused("--side-chains 5 --causes whole"),
+                 "--side-chains is of a mean difference: give --causes region, a patch or a residue"));
+  CHECK(contains(refused("--side-chains few --causes whole"),
+                 "--side-chains: 'few' is not a whole number from 0 to 1000000"));
   CHECK(contains(refused("--causes region"), "--causes region needs a region: give --region or --region-within"));
   CHECK(contains(refused("--causes 'patch site'"), "there is no patch of that name; give --patch site=SELECTION"));
   CHECK(contains(refused("--causes 'residue B:3'"), "has no such residue"));

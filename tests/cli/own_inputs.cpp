@@ -73,10 +73,10 @@ TEST_CASE("each output of each verb, found by running it, is refused as a link t
   folder.write("groups.csv", "label,group\na,x\nb,y\n");
   const std::string end = " --device cpu --threads 1 -q", coarse = " --grid-spacing 2" + end,
                     none = " --potential none" + coarse;
-  check_linked_outputs(folder, "compare a.pqr b.pqr --charges-from two.pqr -o r --residue-pdb r.pdb" + none,
-                       {"a.pqr", "b.pqr", "two.pqr"});
-  check_linked_outputs(folder, "compare a.pqr b.pqr --source-map a.dx --target-map a.dx -o r" + coarse,
-                       {"a.dx", "a.pqr", "b.pqr"});
+  check_linked_outputs(folder, "compare a.pqr b.pqr --charges-from two.pqr -o r --residue-pdb r.pdb --exit-zero" + none,
+                       {"a.pqr", "b.pqr", "two.pqr"}, "--overwrite");
+  check_linked_outputs(folder, "compare a.pqr b.pqr --source-map a.dx --target-map a.dx -o r --exit-zero" + coarse,
+                       {"a.dx", "a.pqr", "b.pqr"}, "--overwrite");
   check_linked_outputs(folder, "surface a.pqr --map a.dx -o s.vtp --density d.dx" + coarse, {"a.pqr", "a.dx"});
   check_linked_outputs(folder, "potential two.pqr --averaging each --pad 5 --grid 4 -o c.dx" + end, {"two.pqr"});
   check_linked_outputs(folder, "potential two.pqr --variance v.dx --standard-error e.dx --pad 5 --grid 4 -o c.dx" + end,

@@ -88,6 +88,38 @@ TEST_CASE("columns of a patch have its metrics' titles and units") {
   for (const char* word : {"RMSD, lid (\u00C5)", "(%)", "lid_trustworthy"}) CHECK_MESSAGE(contains(text, word), word);
 }
 
+TEST_CASE("a comparison is drawn from any of its files, with both states") {
+  const ScratchFolder folder;
+  const std::string head =
+      "chain,residue_number,insertion_code,residue_name,area [A^2],mean_signed_difference [kT/e],mean_source [kT/e],"
+      "mean_target [kT/e]\n";
+  const std::string table =
+      folder.write("r.residues.csv", head + "A,8,,LYS,100,-1.5,2.5,1\nA,9,,ASP,90,0.5,-1,-0.5\nA,10,,GLY,0,,,\n");
+  folder.write("r.json", "{}");
+  folder.write("r.vtp", "");
+  for (const std::string given : {"r", "r.json", "r.vtp", "r.residues.csv"}) {
+    const std::string svg = folder.file(given + ".svg");
+    const Outcome bars = run_espdiff("plot " + folder.file(given) + " -o " + svg);
+    REQUIRE_MESSAGE(bars.status == 0, bars.err);
+    const std::string text = read_file(svg);
+    for (const char* word : {"LYS A8", "ASP A9", "kT/e", "source", "target"}) CHECK_MESSAGE(contains(text, word), word);
+    CHECK_FALSE(contains(text, "GLY"));
+  }
+  const std::string svg = folder.file("top.svg");
+  REQUIRE(run_espdiff("plot " + table + " --top 1 -o " + svg).status == 0);
+  CHECK_FALSE(contains(read_file(svg), "ASP"));
+  REQUIRE(run_espdiff("plot " + table + " --kind scatter --title both -o " + svg).status == 0);
+  for (const char* word : {"source (kT/e)", "target (kT/e)", "both", "LYS A8"})
+    CHECK_MESSAGE(contains(read_file(svg), word), word);
+  const Outcome shapes = run_espdiff(
+      "plot " +
+      folder.write("s.residues.csv", "chain,residue_number,insertion_code,residue_name,area [A^2]\nA,1,,ALA,3\n") +
+      " -o " + svg);
+  CHECK(shapes.status == 2);
+  CHECK(contains(shapes.err, "has no potentials of both states; compare with charges or maps"));
+  CHECK(contains(run_espdiff("plot " + table + " --metric rmsd_A -o " + svg).err, "is one of a comparison's residues"));
+}
+
 TEST_CASE("wrong usage of plot exits 2 and writes nothing") {
   const ScratchFolder folder;
   const std::string matrix = made_matrix(folder), table = folder.write("t.csv", "frame,a\n0,1\n");

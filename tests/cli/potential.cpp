@@ -206,7 +206,7 @@ TEST_CASE("without maps and with charges Poisson-Boltzmann is computed, and the 
        {"\"path\": \"pb of ", "\"relative_residual\"", "\"cycles\"", "\"spacing_A\": 1.0", "\"zero\": \"far away\"",
         "\"ionic_strength_M\": 0.15", "\"vacuum\": false", "\"grid\"", "\"dielectric_boundary\": \"molecular\""})
     CHECK_MESSAGE(contains(json, part), part);
-  const Outcome none = run_espdiff(start + "--potential none");
+  const Outcome none = run_espdiff(start + "--potential none --overwrite");
   REQUIRE(none.status == 0);
   CHECK(contains(none.out, "\nShape "));
   CHECK(contains(read_file(folder.file("out.json")), "\"potential_unit\": null"));

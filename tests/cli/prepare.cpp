@@ -95,7 +95,7 @@ TEST_CASE("compare: two PDB entries to the answer, with a region around a ligand
   const ScratchFolder folder;
   const Outcome outcome = run_espdiff("compare " + *source + " " + *target +
                                       " --select '//A;polymer' --region-within 5 --of '//A/(AP5)' --grid-spacing 2 "
-                                      "--pb-spacing 1.5 -o " +
+                                      "--pb-spacing 1.5 --exit-zero --no-trials -o " +
                                       folder.file("adk"));
   CHECK(outcome.status == 0);
   CHECK(outcome.err.empty());
@@ -114,7 +114,7 @@ TEST_CASE("compare: two PDB entries to the answer, with a region around a ligand
   CHECK(json["inputs"][0]["path"] == "adk.source.pqr");
   // The kept structures repeat the comparison.
   const Outcome again = run_espdiff("compare " + folder.file("adk.source.pqr") + " " + folder.file("adk.target.pqr") +
-                                    " --grid-spacing 2 --pb-spacing 1.5 -q -o " + folder.file("again"));
+                                    " --grid-spacing 2 --pb-spacing 1.5 -q --exit-zero -o " + folder.file("again"));
   CHECK(again.status == 0);
   CHECK(json_of(folder.file("again.json"))["mean_abs_difference"] == json["mean_abs_difference"]);
 }
@@ -134,7 +134,7 @@ TEST_CASE("compare: copies are said, and swapped chains of a dimer are not compa
   }
   const std::string swapped = folder.write("swapped.pdb", first + second);
   const Outcome outcome =
-      run_espdiff("compare " + *tim + " " + swapped + " --select ';polymer' --potential none --grid-spacing 2 -o " +
+      run_espdiff("compare " + *tim + " " + swapped + " --select ';polymer' --potential none --grid-spacing 2 --exit-zero --no-trials -o " +
                   folder.file("out"));
   CHECK(outcome.status == 0);
   CHECK(contains(outcome.out, "Copies in the source             chains A, B repeat one sequence"));
@@ -147,7 +147,7 @@ TEST_CASE("compare: without PDB2PQR shapes alone are compared, and why is said")
   const auto source = real_input("t4l/3lzm_from_bcif.pdb");
   if (!source) return;
   const ScratchFolder folder;
-  const std::string call = "compare " + *source + " " + *source + " --grid-spacing 2 -o " + folder.file("out");
+  const std::string call = "compare " + *source + " " + *source + " --grid-spacing 2 --exit-zero --no-trials --overwrite -o " + folder.file("out");
   const Outcome outcome = run_espdiff(call, "ESPDIFF_PDB2PQR=/no/such/program");
   CHECK(outcome.status == 0);
   CHECK(contains(outcome.out, "has no charges, and PDB2PQR, which assigns some, is not there; install it"));

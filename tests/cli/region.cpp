@@ -72,7 +72,7 @@ TEST_CASE("trajectory: the region's columns are compare's region, frame by frame
   check_run(run + "-o " + files.out("t.csv"));
   const espdiff::CsvTable table = espdiff::read_csv(files.out("t.csv"));
   for (int model = 1; model <= 3; ++model) {
-    check_run("compare " + files.a + " " + files.frames + region + "--target-model " + std::to_string(model) + " -o " +
+    check_run("compare --exit-zero --overwrite --no-trials " + files.a + " " + files.frames + region + "--target-model " + std::to_string(model) + " -o " +
               files.out("one"));
     check_region(Json::parse(read_file(files.out("one.json"))), table, static_cast<std::size_t>(model - 1));
   }
@@ -120,7 +120,7 @@ TEST_CASE("matrix: the region's values are compare's region, in files, states an
   const std::string region = " --region '//*/1-4' ", run = "matrix " + files.a + " " + files.b + " " + files.c + region;
   check_run(run + "--cluster-by region_mean_abs_difference -o " + files.out("m"));
   const espdiff::CsvTable table = espdiff::read_csv(files.out("m.csv"));
-  check_run("compare " + files.a + " " + files.c + region + "-o " + files.out("one"));
+  check_run("compare --exit-zero --overwrite --no-trials " + files.a + " " + files.c + region + "-o " + files.out("one"));
   const Json one = Json::parse(read_file(files.out("one.json")));
   check_region(one, table, 1, 1e-5);
   const Json matrix = Json::parse(read_file(files.out("m.json")));
@@ -145,7 +145,7 @@ TEST_CASE("matrix: a variant without the atoms takes the region of the first one
   const RegionFiles files;
   const std::string near_to = " --select '(ALA)' --region-within 4 --of '(LIG)' -o ";
   check_run("matrix " + files.a + " " + files.b + " " + files.c + near_to + files.out("m"));
-  check_run("compare " + files.a + " " + files.b + near_to + files.out("one"));
+  check_run("compare --exit-zero --overwrite --no-trials " + files.a + " " + files.b + near_to + files.out("one"));
   const espdiff::CsvTable table = espdiff::read_csv(files.out("m.csv"));
   check_region(Json::parse(read_file(files.out("one.json"))), table, 0, 1e-5);
   CHECK_FALSE(cell(table, 1, "region_rmsd_A").empty());  // neither of the two has the ligand

@@ -1,13 +1,13 @@
 // report_page.cpp: a result as a page: what it holds, that hostile texts stay texts, and that a browser draws it.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "base/error.h"
 #include "cli/run_espdiff.h"
+#include "page/browser.h"
 #include "page/page_arrays.h"
 #include "page/page_texts.h"
 #include "page/report_page.h"
@@ -34,12 +34,6 @@ struct SmallResult {
                 .status == 0);
   }
 };
-
-/// What stands in the script element of that id.
-std::string element(const std::string& page, const std::string& id) {
-  const std::size_t begin = page.find('>', page.find("id=\"" + id + "\"")) + 1;
-  return page.substr(begin, page.find("</script>", begin) - begin);
-}
 
 }  // namespace
 
@@ -98,31 +92,17 @@ TEST_CASE("a result that is not whole, or not a comparison's, is refused with th
 
 TEST_CASE("a browser draws the surface, and a click on a residue shows it") {
   if (!has_three()) return;
-  if (std::system("command -v chromium >/dev/null") != 0) {
-    MESSAGE("SKIPPED: chromium is not installed");
-    return;
-  }
   const SmallResult result;
-  std::string page = report_page(result.prefix, "");
-  // Behind the page's own script: what a person does, and what the page shows then.
-  const std::string acts =
-      "<script>const wait = setInterval(() => { if (!document.documentElement.dataset.ready) return; "
-      "clearInterval(wait); document.querySelector('#residues tbody tr:nth-child(2)').click(); "
+  const auto dom = shown_in_browser(
+      report_page(result.prefix, ""),
+      "document.querySelector('#residues tbody tr:nth-child(2)').click(); "
       "document.getElementById('linked').click(); const gl = document.querySelector('#canvas canvas'); "
       "const copy = document.createElement('canvas'); copy.width = gl.width; copy.height = gl.height; "
       "const context = copy.getContext('2d'); context.drawImage(gl, 0, 0); "
       "const pixels = context.getImageData(0, 0, gl.width, gl.height).data; let drawn = 0; "
       "for (let i = 3; i < pixels.length; i += 4) drawn += pixels[i] > 0; "
       "document.documentElement.dataset.seen = [drawn > 1000, document.querySelectorAll('.label').length, "
-      "document.querySelectorAll('.picked').length, document.getElementById('picked').textContent].join('|'); }, "
-      "50);</script></body>";
-  page.replace(page.rfind("</body>"), 7, acts);
-  result.folder.write("page.html", page);
-  const std::string command =
-      "chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader "
-      "--enable-unsafe-swiftshader --virtual-time-budget=20000 --dump-dom file://" +
-      result.folder.file("page.html") + " 2>/dev/null >" + result.folder.file("dom");
-  REQUIRE(std::system(command.c_str()) == 0);
-  const std::string dom = read_file(result.folder.file("dom"));
-  CHECK_MESSAGE(contains(dom, "data-seen=\"true|3|1|A:ALA"), dom.substr(0, 400));
+      "document.querySelectorAll('.picked').length, document.getElementById('picked').textContent].join('|');",
+      result.folder);
+  if (dom) CHECK_MESSAGE(contains(*dom, "data-seen=\"true|3|1|A:ALA"), dom->substr(0, 400));
 }

@@ -234,6 +234,15 @@ TEST_CASE("what a reader must know of two potentials") {
                                  "charges may be missing"});
 }
 
+TEST_CASE("a mean over frames is named so") {
+  espdiff::MapRecipe recipe;
+  recipe.has_water = true;
+  recipe.pme.part = espdiff::PmePart::kFull;
+  CHECK(espdiff::potential_label(recipe) == "PME with explicit water");
+  recipe.n_frames = 5;
+  CHECK(espdiff::potential_label(recipe) == "PME with explicit water, mean over 5 frames");
+}
+
 TEST_CASE("which potential is taken where none is named") {
   using Facts = espdiff::PotentialFacts;
   const auto kind = [](const std::vector<Facts>& facts) {

@@ -385,6 +385,19 @@ TEST_CASE("prepare_molecule: a name without charges is found before the program 
   CHECK_FALSE(std::filesystem::exists(folder.file("ran")));
 }
 
+TEST_CASE("prepare_molecule: DNA under the names of before 2007 is prepared, thymine's methyl group too") {
+  const std::string path = "/usr/share/doc/theseus/examples/1s40.pdb.gz";
+  if (!std::filesystem::exists(path) || !has_pdb2pqr()) return;
+  const Molecule whole = read_structure(path, {1, true, false, {}});
+  std::vector<bool> is_dna;
+  for (const auto& atom : whole.atoms)
+    is_dna.push_back(whole.residues[static_cast<std::size_t>(atom.residue)].chain == "B");
+  const Prepared prepared = prepare(espdiff::keep_atoms(whole, is_dna));
+  CHECK(prepared.preparation.net_charge == doctest::Approx(-10).epsilon(1e-3));  // ten phosphates
+  CHECK(prepared.preparation.renamed.size() == 11);
+  CHECK_FALSE(prepared.preparation.propka);
+}
+
 TEST_CASE("force_field_for: AMBER where there are nucleotides, one force field for both states") {
   Molecule protein, dna;
   protein.name = "protein.pdb";

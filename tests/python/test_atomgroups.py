@@ -1,6 +1,9 @@
 """AtomGroups that cannot be compared are one exception that names the argument and the remedy; memory of large ones."""
 
+import gzip
+import pathlib
 import pickle
+import shutil
 import subprocess
 import sys
 import tracemalloc
@@ -41,12 +44,80 @@ def refused(text, *arguments, **options):
 
 def test_without_charges():
     bare = universe(without=["charges"]).atoms
-    text = r"the AtomGroup has no charges, which potential='pb' needs; load a topology that has them \(PSF, TPR, prmtop\), add"
-    refused("source: " + text, bare, universe(0.02).atoms, potential="pb")
-    refused("target: " + text, universe(0.02).atoms, bare, potential="pb")
-    with pytest.raises(espdiff.InputError, match=r"states\[1\]: " + text):
+    text = "universe: has no charges, and PDB2PQR cannot prepare it"
+    refused(text, bare, universe(0.02).atoms, potential="pb")
+    refused(text + '.*; `potential="none"` compares shapes alone', universe(0.02).atoms, bare)
+    with pytest.raises(espdiff.InputError, match=text):
         espdiff.matrix([universe().atoms, bare], potential="pb")
-    assert not espdiff.compare(bare, universe(0.02).atoms, **QUICK).has_potential
+    assert not espdiff.compare(bare, universe(0.02).atoms, potential="none", **QUICK).has_potential
+
+
+TRPCAGE = pathlib.Path(__file__).resolve().parents[1] / "data" / "ensembles"
+WATER = "HETATM  999  O   HOH B 301      40.000  40.000  40.000  1.00  0.00           O\n"
+
+
+@pytest.fixture
+def pair(tmp_path):
+    """Two structures without charges, with a water and an alternate location."""
+    if not shutil.which("pdb2pqr"):
+        pytest.skip("SKIPPED: PDB2PQR is not there; scripts/install-packages runtime")
+    paths = []
+    for name in ("wild", "mutant"):
+        lines = gzip.decompress((TRPCAGE / f"trpcage_{name}_1.pdb.gz").read_bytes()).decode().splitlines(keepends=True)
+        end = next(i for i, line in enumerate(lines) if line.startswith(("ENDMDL", "END")))
+        atoms = [line for line in lines[:end] if line.startswith("ATOM")]
+        at = next(i for i, line in enumerate(atoms) if line[12:16].strip() == "CG" and line[17:20] == "LEU")
+        worse = atoms[at][:16] + "B" + atoms[at][17:30] + "  99.000" + atoms[at][38:54] + "  0.30" + atoms[at][60:]
+        atoms[at:at + 1] = [worse, atoms[at][:16] + "A" + atoms[at][17:54] + "  0.70" + atoms[at][60:]]
+        path = tmp_path / f"{name}.pdb"
+        path.write_text("".join([*atoms, WATER, "END\n"]))
+        paths.append(path)
+    return paths
+
+
+def test_universes_are_prepared_as_their_files(pair):
+    """By path, as a Universe, as ProDy's atoms: the same bits, and never an answer without a difference."""
+    options = {"grid_spacing": 1.2, "threads": 1}
+    by_path = espdiff.compare(*pair, **options)
+    assert by_path.has_potential and by_path.unit == "kT/e"
+    universes = [mda.Universe(str(path)) for path in pair]
+    same = espdiff.compare(*universes, **options)
+    assert np.array_equal(same.difference, by_path.difference, equal_nan=True) and same.unit == "kT/e"
+    assert same.to_dict()["preparation"]["source"]["n_hydrogens_added"] == by_path.to_dict()["preparation"]["source"]["n_hydrogens_added"]
+    groups = espdiff.compare(*[u.select_atoms("protein") for u in universes], **options)
+    assert np.array_equal(groups.difference, by_path.difference, equal_nan=True)
+    states = espdiff.compare(*[espdiff.state(u) for u in universes], **options)
+    assert np.array_equal(states.difference, by_path.difference, equal_nan=True)
+    step = espdiff.Series(universes[0], start="source", **options).step(universes[1])
+    file_step = espdiff.Series(pair[0], start="source", **options).step(pair[1])
+    assert np.array_equal(step.difference, file_step.difference, equal_nan=True) and step.to_dict()["preparation"]["source"] is not None
+    assert np.array_equal(espdiff.matrix(universes, **options)["mean_abs_difference"],
+                          espdiff.matrix(pair, **options)["mean_abs_difference"], equal_nan=True)
+    prody = pytest.importorskip("prody", reason="SKIPPED: no ProDy")
+    prody.confProDy(verbosity="none")
+    atoms = [prody.parsePDB(str(path), altloc="A") for path in pair]
+    assert np.array_equal(espdiff.compare(*atoms, **options).difference, by_path.difference, equal_nan=True)
+
+
+def test_a_universe_has_its_water_around_it():
+    wet = universe(n_frames=1)
+    wet.dimensions = [60, 60, 60, 90, 90, 90]
+    wet.residues[-1].resname = "HOH"
+    assert len(espdiff.state(wet)) == 110 and len(espdiff.state(wet.atoms)) == 120
+
+
+def test_prepare(pair, tmp_path):
+    made = espdiff.prepare(mda.Universe(str(pair[0])), ph=7)
+    assert made.charges.sum() == pytest.approx(1, abs=1e-3) and made.preparation["force_field"] == "parse"
+    made.save(tmp_path / "wild.pqr")
+    assert np.allclose(espdiff.State.read(tmp_path / "wild.pqr").charges, made.charges)
+    copy = pickle.loads(pickle.dumps(made))
+    assert copy.preparation == made.preparation and copy.sha256 == made.sha256
+    charged = espdiff.prepare(tmp_path / "wild.pqr")
+    assert charged.preparation is None and np.array_equal(charged.charges, made.charges)
+    assert len(espdiff.prepare(tmp_path / "wild.pqr", select="//A/1-10")) < len(made)
+    with pytest.raises(espdiff.InputError, match="the state lacks them; espdiff.prepare"):
+        espdiff.state(mda.Universe(str(pair[0]))).save(tmp_path / "none.pqr")
 
 
 def test_without_radii():

@@ -119,7 +119,7 @@ def test_a_matrix_through_a_template(made, tmp_path):
     merged = espdiff.merge(parts, tmp_path / "merged")
     assert merged.to_dict() == matrix.to_dict()
     assert espdiff.matrix(made, ["a", "b"], **QUICK).template is None
-    with pytest.raises(espdiff.InputError, match="template=d. is neither medoid"):
+    with pytest.raises(espdiff.InputError, match="template=.d.. is neither medoid"):
         espdiff.matrix(states, ["a", "b", "c"], template="d", **QUICK)
     with pytest.raises(espdiff.InputError, match="exact_sample: -1"):
         espdiff.matrix(states, ["a", "b", "c"], template="a", exact_sample=-1, **QUICK)

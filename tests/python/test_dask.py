@@ -1,5 +1,6 @@
 """Matrices, trajectories and ensembles on Dask's workers: the same bytes with 1, 2 and 4 of them."""
 
+import importlib.util
 import os
 import pathlib
 import subprocess
@@ -140,3 +141,17 @@ def test_slurm_example(data, tmp_path):
     assert any("#SBATCH" in path.read_text() and "--cpus-per-task=1" in path.read_text() for path in queue.glob("job-*.sh"))
     for ending in (".csv", ".json"):
         assert (tmp_path / f"many{ending}").read_bytes() == (tmp_path / f"one{ending}").read_bytes()
+
+
+def test_options_of_the_example(monkeypatch):
+    """Switches, values and repeated options reach the matrix; others end it."""
+    loader = importlib.util.spec_from_file_location("matrix_dask", REPOSITORY / "docs" / "examples" / "matrix_dask.py")
+    module = importlib.util.module_from_spec(loader)
+    loader.loader.exec_module(module)
+    words = "--cavities --potential pb --no-project --grid-spacing=1.5 --patch site=//A/8-12 --patch other=//A/3 --threads 2".split()
+    assert module.settings(words) == {"cavities": True, "potential": "pb", "project": False, "grid_spacing": "1.5",
+                                      "patches": {"site": "//A/8-12", "other": "//A/3"}, "threads": 2}
+    for words, text in ((["--nonsense", "1"], "--nonsense: espdiff matrix has no such option"), (["pb"], "pb: espdiff matrix"),
+                        (["--potential"], "--potential needs a value")):
+        with pytest.raises(SystemExit, match=text):
+            module.settings(words)

@@ -67,9 +67,24 @@ def test_options(made):
 
 def test_no_charges(made):
     bare = espdiff.State.from_arrays(**{k: v for k, v in made_arrays().items() if k != "charges"})
-    assert not espdiff.compare(bare, made[1], **QUICK).has_potential
-    with pytest.raises(espdiff.InputError, match="charges"):
-        espdiff.compare(bare, made[1], potential="pb", **QUICK)
+    for potential in ("auto", "pb"):  # never a result without a difference, unless that is asked for
+        with pytest.raises(espdiff.InputError, match="arrays: has no charges, and PDB2PQR cannot prepare it: .*are missing"):
+            espdiff.compare(bare, made[1], potential=potential, **QUICK)
+    with pytest.raises(espdiff.InputError, match='`potential="none"` compares shapes alone'):
+        espdiff.compare(bare, made[1], **QUICK)
+    assert not espdiff.compare(bare, made[1], potential="none", **QUICK).has_potential
+    with pytest.raises(espdiff.InputError, match="has no charges"):
+        espdiff.matrix([bare, made[1]], **QUICK)
+    with pytest.raises(espdiff.InputError, match="has no charges"):
+        espdiff.Series(bare, **QUICK).step(made[1])
+
+
+def test_without_pdb2pqr(made, monkeypatch):
+    monkeypatch.setenv("PATH", "/nowhere")
+    monkeypatch.delenv("ESPDIFF_PDB2PQR", raising=False)
+    bare = espdiff.State.from_arrays(**{k: v for k, v in made_arrays().items() if k != "charges"})
+    with pytest.raises(espdiff.Error, match='arrays has no charges, and PDB2PQR, which assigns some, is not there; .*; `potential="none"`'):
+        espdiff.compare(bare, made[1], **QUICK)
 
 
 def test_names_of_certificate_and_quantities(made):

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/counter_random.h"
 #include "base/types.h"
-#include "statistics/counter_random.h"
 #include "statistics/mesh_graph.h"
 
 namespace espdiff_test {

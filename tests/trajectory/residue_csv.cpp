@@ -64,7 +64,7 @@ TEST_CASE("residues of a trajectory: a row a frame, empty where a residue has no
   CHECK(read_file(folder.file("s.csv")).find("\n0,0.25,0.25,0.25\n") != std::string::npos);
   CHECK(message_of([&] {
           ResidueCsv(folder.file("t.csv"), "rmsd", ExistingFile::kRefuse);
-        }).rfind("residues have no quantity 'rmsd'; there are: share, area_A2, ", 0) == 0);
+        }).rfind("residues have no quantity 'rmsd'; there are: share, contribution, area_A2, ", 0) == 0);
   CHECK(folder.n_files() == 2);
 }
 

@@ -1,6 +1,7 @@
 // surfaces.cpp: the verifier's own geometry on shapes whose values are known.
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <cmath>
 #include <vector>
 
@@ -77,6 +78,14 @@ TEST_CASE("crossing triangles are counted, neighbours and separate ones are not"
   CHECK(espdiff::count_meetings(shapes.positions, shapes.triangles) == 3);
   shapes.positions[5] = shapes.positions[4];  // two triangles of the second one lose their area
   CHECK(espdiff::count_meetings(shapes.positions, shapes.triangles) == 5);
+}
+
+TEST_CASE("a surface that a damaged file has at one point is not counted through") {
+  std::vector<espdiff::Triangle> triangles;
+  for (std::uint32_t t = 0; t < 30000; ++t) triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  const auto begun = std::chrono::steady_clock::now();
+  CHECK(espdiff::count_meetings(std::vector<Vec3d>(90000, Vec3d{1, 2, 3}), triangles) > 1000);
+  CHECK(std::chrono::steady_clock::now() - begun < std::chrono::seconds(20));
 }
 
 TEST_SUITE_END();

@@ -28,6 +28,8 @@ using espdiff_test::can_draw;
 using espdiff_test::compare_made_pair;
 using espdiff_test::contains;
 using espdiff_test::message_of;
+using espdiff_test::Outcome;
+using espdiff_test::run_espdiff;
 using espdiff_test::ScratchFolder;
 
 namespace {
@@ -384,4 +386,17 @@ TEST_CASE("the length bar follows the camera, and axes show the target's x, y an
   scene.axes = true;
   drawn.change_to(scene);
   for (const char* letter : {"x", "y", "z"}) CHECK(texts_of(window).count(letter) == 1);
+}
+
+TEST_CASE("a picture is named as what it is, and a focus is a part of the result") {
+  const ScratchFolder folder;
+  const std::string vtp = compare_made_pair(folder, " --region //A/3-4 --patch end=//A/6");
+  for (const char* ending : {"svg", "pdf", "jpg"}) {
+    const Outcome outcome = run_espdiff("render " + vtp + " -o " + folder.file(std::string("x.") + ending));
+    CHECK(outcome.status == 2);
+    CHECK(contains(outcome.err, std::string("x.") + ending + ": surfaces are drawn as PNG; name it .png"));
+  }
+  const Outcome none = run_espdiff("render " + vtp + " --focus nose -o " + folder.file("x.png"));
+  CHECK(none.status == 2);
+  CHECK(contains(none.err, "--focus nose is no part of the result, which has end, region"));
 }

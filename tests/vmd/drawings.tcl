@@ -29,15 +29,12 @@ load_tim
 set comparison [espdiff compare [list mol $source map 0] [list mol $target map 0] -grid-spacing 2]
 set reverse [espdiff compare [list mol $target map 0] [list mol $source map 0] -grid-spacing 2]
 
-# The texts of the legends, by handle.
+# The texts that a molecule of ours was drawn with, as triangles; those of the legends.
+proc texts_of {mol} { ::espdiff::value_or $::espdiff::drawn_texts $mol {} }
 proc legend_texts {} {
     set texts {}
     foreach mol [our_molecules] {
-        if {![string match "*legend*" [molinfo $mol get name]]} continue
-        foreach item [graphics $mol list] {
-            set words [graphics $mol info $item]
-            if {[lindex $words 0] eq "text"} { lappend texts [lindex $words 2] }
-        }
+        if {[string match "*legend*" [molinfo $mol get name]]} { lappend texts {*}[texts_of $mol] }
     }
     return $texts
 }
@@ -76,6 +73,7 @@ test "the molecules of a drawing can be told apart, and are hidden and shown tog
     set names [lmap mol $drawn { lindex [molinfo $mol get name] 0 }]
     check "short: $names" {[regexp {^espdiff \d+: difference$} [lindex $names 0]]}
     check_equal "different names" [llength [lsort -unique $names]] [llength $drawn]
+    check "few: $names" {[llength $drawn] <= 4}
     mol off [lindex $drawn 0]
     check_equal hidden [displayed $drawn] 0
     mol on [lindex $drawn end]
@@ -98,6 +96,27 @@ test "transparency in a rendermode that cannot is told about" {
     espdiff draw $comparison -uncertain transparent
     check_equal told $::espdiff::said_rendermode 1
     espdiff draw $comparison
+}
+
+test "texts are triangles of their own size, within the window" {
+    set legend [lindex [::espdiff::drawing_of $comparison] end]
+    check_equal "texts" [lrange [texts_of $legend] 1 end-1] {-2.5 -1.25 0 1.25 2.5}
+    set high 0
+    set wide 0
+    foreach item [graphics $legend list] {
+        set words [graphics $legend info $item]
+        check "no text of VMD's" {[lindex $words 0] ne "text"}
+        if {[lindex $words 0] ne "triangle"} continue
+        foreach corner [lrange $words 1 3] {
+            set wide [expr {max($wide, abs([lindex $corner 0]))}]
+            if {[lindex $corner 1] > -0.78} { lappend title [lindex $corner 1] }
+        }
+    }
+    lassign [display get size] width height
+    check "as wide as the window at most" {$wide < double($width) / $height}
+    # Capitals are 4 % of half the window's height.
+    set title [lsort -real $title]
+    check "height of the title" {[lindex $title end] - [lindex $title 0] < 0.06}
 }
 
 test "every renderer of this VMD takes a drawing with its legend" {
@@ -157,10 +176,7 @@ test "at another frame the picture says which frame the surface is of" {
     check_equal "its own frame" [shown_notes] {}
     animate goto 60
     check_equal "another one" [llength [shown_notes]] 1
-    set words ""
-    foreach item [graphics [lindex [shown_notes] 0] list] {
-        append words [graphics [lindex [shown_notes] 0] info $item]
-    }
+    set words [texts_of [lindex [shown_notes] 0]]
     check "the words" {[string match "*frame 10*another frame*" $words]}
     animate goto 10
     check_equal "back" [shown_notes] {}
@@ -177,16 +193,17 @@ test "what has no counterpart is hatched on either side" {
     check "on the target" {[espdiff result $open certificate no_counterpart_area_fraction target] > 0.01}
     foreach surface {mapped source} {
         espdiff draw $open -surface $surface -uncertainty-limit 15
-        set stripes [dict create 33 0 1056 0]
+        # Grey and white by number: no colour of the scale.
+        set stripes [dict create 2 0 8 0]
         foreach mol [our_molecules] {
-            if {![string match "*: uncertain*" [molinfo $mol get name]]} continue
+            if {![string match "*: slip*" [molinfo $mol get name]]} continue
             foreach item [graphics $mol list] {
                 set color [lindex [graphics $mol info $item] end]
                 if {[dict exists $stripes $color]} { dict incr stripes $color }
             }
         }
         note "    $surface: dark and light triangles $stripes"
-        check "$surface: stripes" {[dict get $stripes 33] > 50 && [dict get $stripes 1056] > 50}
+        check "$surface: stripes" {[dict get $stripes 2] > 50 && [dict get $stripes 8] > 50}
     }
 }
 

@@ -42,7 +42,7 @@ test "the run, stopped and gone on with" {
     check "done" {[string match "40 frames in *Written: tab.json*" [[widget ensemble,message] cget -text]]}
     set h $::espdiff::gui::ensemble_shown
     check "resumed" {[espdiff result $h resumed] >= 2}
-    check "answer" {[string match "Mean absolute difference*" [[widget ensemble,answer] cget -text]]}
+    check "answer" {[string match "*\nMean absolute difference*" [[widget ensemble,answer] cget -text]]}
 }
 
 test "the difference is drawn on the template's molecule, at its frame" {

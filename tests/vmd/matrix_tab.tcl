@@ -51,7 +51,7 @@ test "a click on a cell compares its pair and draws it" {
     event generate [widget matrix,map] <ButtonPress-1> -x $x -y $y
     update
     wait_until {$::espdiff::gui::running eq ""}
-    check_equal tab [[widget tabs] index current] 0
+    check_equal "the tab stays" [::espdiff::gui::open_tab] matrix
     set values [dict get $::espdiff::gui::matrix_result metrics mean_abs_difference values]
     check_equal "the cell's number" [espdiff result $::espdiff::gui::shown mean_abs_difference] [lindex $values 0 1]
     check "drawn" {[molinfo num] > $before}

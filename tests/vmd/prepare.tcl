@@ -63,10 +63,52 @@ test "the window offers it, and says why" {
     foreach side {source target} { ::espdiff::gui::update_endpoint $side }
     update
     check "the row is there" {[winfo ismapped [widget source,charges]]}
-    check_equal "why" [[widget source,charges_text] cget -text] "No charges: PDB files have none"
+    check_equal "why" [[widget source,charges_text] cget -text] "No charges in PDB"
     if {[info exists env(ESPDIFF_KEEP)]} {
         pause 500
         exec import -window root $scratch/prepare_before.png
+    }
+}
+
+test "Compare offers it for both sides: two clicks from the structures to the picture" {
+    foreach side {source target} {
+        set path [::espdiff::gui::prepared_path $side]
+        check "beside the file, or here: $path" {[string match "*-prepared*.pqr" $path] && ![file exists $path]}
+    }
+    # Inputs of others are not written beside.
+    rename ::espdiff::gui::prepared_path ::prepared_beside
+    proc ::espdiff::gui::prepared_path {side} { return $::scratch/$side-offered.pqr }
+    set question ""
+    rename tk_messageBox tk_box
+    proc tk_messageBox {args} { set ::question [dict get $args -message]; return $::answer }
+    array set ::espdiff::gui::setting {grid-spacing 2}
+    set answer cancel
+    [widget compare] invoke
+    check_equal "asked by name" $question "No charges: $::espdiff::gui::form(source,mol) and $::espdiff::gui::form(target,mol)"
+    check_equal "nothing runs" [list $::espdiff::gui::running [espdiff handles]] {{} {}}
+    set answer yes
+    set offered [array get ::espdiff::gui::form]
+    [widget compare] invoke
+    wait_until {$::espdiff::gui::running eq "" && !$::espdiff::gui::compares_next}
+    rename tk_messageBox ""
+    rename tk_box tk_messageBox
+    rename ::espdiff::gui::prepared_path ""
+    rename ::prepared_beside ::espdiff::gui::prepared_path
+    set comparison $::espdiff::gui::shown
+    check "charged: [message_line]" {[string match "Poisson-Boltzmann*" [espdiff result $comparison potential label]]}
+    check "drawn" {[llength [::espdiff::drawing_of $comparison]] > 1}
+    check_equal "the structures are hidden" [list [molinfo $source get displayed] [molinfo $target get displayed]] {0 0}
+    check "the script" {[string match "*espdiff*prepare*source-offered.pqr*" [::espdiff::gui::session_text]]}
+    espdiff delete all
+    foreach mol [lrange [molinfo list] 2 end] { mol delete $mol }
+    array set ::espdiff::gui::form $offered
+    foreach side {source target} { ::espdiff::gui::update_endpoint $side }
+    update
+}
+
+test "shapes alone: each side names its own molecule" {
+    foreach {side name} {source 3lzm_from_bcif.pdb target 181L.pdb} {
+        check_equal $side [[widget $side,choice] cget -text] "Shapes alone: $name has no charges"
     }
 }
 

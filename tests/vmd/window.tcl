@@ -103,6 +103,19 @@ test "AdK's trajectory: rows come, and the plot with them" {
     check "title and unit" {"Mean absolute difference (kT/e in vacuum)" in $texts}
 }
 
+test "an average over frames is of PME, and a number" {
+    form trajectory,average 5
+    check_equal words [::espdiff::gui::trajectory_map] {pme average 5}
+    form trajectory,map Poisson-Boltzmann
+    press trajectory,run
+    check "refused: [[widget trajectory,message] cget -text]" \
+        {[string match "Average over 5 frames: only PME*" [[widget trajectory,message] cget -text]]}
+    form trajectory,average some
+    press trajectory,run
+    check "refused" {[string match "Average over: 'some'*" [[widget trajectory,message] cget -text]]}
+    form trajectory,average 1 trajectory,map "PME, explicit water"
+}
+
 test "a click on a point goes to its frame; keys too; VMD's frame is marked" {
     lassign [lindex [dict get $::espdiff::gui::plot_frame points] 2] row x y
     event generate [widget trajectory,plot] <ButtonPress-1> -x [expr {int($x)}] -y [expr {int($y)}]

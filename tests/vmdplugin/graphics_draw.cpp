@@ -125,3 +125,21 @@ TEST_CASE("draw_triangles: what cannot be drawn is refused before the first tria
         "the normal of vertex 0 is inf 0 1; numbers within 1e7 were expected");
   CHECK(vmd.calls.empty());
 }
+
+TEST_CASE("add_pick_points: one call for each point, by strings and by a procedure") {
+  Vmd vmd;
+  const std::vector<Vec3f> points{{1, 2, 3}, {-0.5F, 0, 1000}};
+  CHECK(message_of([&] { add_pick_points(vmd.interp, 3, points); }) ==
+        "there is no command 'graphics', by which VMD draws; run this inside VMD");
+  vmd.draw_by_strings();
+  add_pick_points(vmd.interp, 3, points);
+  CHECK(vmd.calls == std::vector<std::string>{"3|pickpoint|1.000 2.000 3.000", "3|pickpoint|-0.500 0.000 1000.000"});
+  CHECK(Tcl_GetStringResult(vmd.interp) == std::string());
+  CHECK(message_of([&] { add_pick_points(vmd.interp, 4, points); }) ==
+        "VMD refused a pick point in molecule 4: graphics: invalid graphics molecule");
+  CHECK(message_of([&] { add_pick_points(vmd.interp, 3, {{0, 2e7F, 0}}); }).find("the position of vertex 0 is ") == 0);
+  vmd.draw_by_procedure();
+  add_pick_points(vmd.interp, 3, points);
+  REQUIRE(Tcl_Eval(vmd.interp, "lindex $calls 1") == TCL_OK);
+  CHECK(Tcl_GetStringResult(vmd.interp) == std::string("3 pickpoint {-0.500 0.000 1000.000}"));
+}

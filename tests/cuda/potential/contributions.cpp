@@ -51,7 +51,7 @@ void check_against_single_charges(Engine& engine, const MapOfCharges& make, cons
   const std::size_t n = engine.n_vertices(mesh);
   const std::vector<std::vector<double>> weights{some_weights(n, 92), some_weights(n, 93)};
   const GridPtr map = make(engine, charges);
-  const auto found = engine.contributions(map, mesh, weights, {});
+  const auto found = engine.contributions(map, mesh, weights, {}, {});
   REQUIRE(found.size() == 2);
   for (std::size_t r = 0; r < 2; ++r) {
     REQUIRE(found[r].size() == charges.size());
@@ -140,6 +140,47 @@ TEST_CASE("each charge adds to a reading of Ewald's sum what it makes alone, whe
   }
 }
 
+TEST_CASE("a probe adds what a charge there would, with the shape kept") {
+  const Molecule m = charged_chain();
+  Random random(96);
+  const espdiff::RigidTransform to_map = random_rigid(random, 20);
+  // A charge without radius inside another atom leaves the dielectric as it is.
+  Molecule more = m;
+  more.positions.push_back(m.positions[4] + Vec3d{0.3, -0.2, 0.4});
+  more.radii.push_back(0);
+  more.charges.assign(more.size(), 0.0F);
+  more.charges.back() = 0.7F;
+  for (const auto& engine : fast_back_ends()) {
+    const MeshPtr mesh = comparison_surface(*engine, m);
+    const std::vector<double> weights = some_weights(engine->n_vertices(mesh), 97);
+    const std::size_t n = m.size();
+    const auto check = [&](const GridPtr& map, const GridPtr& alone, Vec3d place) {
+      const std::vector<espdiff::ProbeCharge> probes{{place, 0, 0.7F}};
+      const std::vector<double> found = engine->contributions(map, mesh, {weights}, probes, {}).front();
+      REQUIRE(found.size() == n + 1);
+      const double wanted = reading_of(*engine, alone, mesh, weights);
+      CHECK(found[n] == doctest::Approx(wanted).epsilon(1e-4));
+      CHECK(std::vector<double>(found.begin(), found.end() - 1) ==
+            engine->contributions(map, mesh, {weights}, {}, {}).front());
+    };
+    for (const auto boundary : {espdiff::FarBoundary::kDebyeHueckel, espdiff::FarBoundary::kFocus}) {
+      PoissonBoltzmannOptions options;
+      options.far_boundary = boundary;
+      const Lattice lattice = pb_lattice(m, 1.0, 8);
+      check(pb_on_device(*engine, m, lattice, options), pb_on_device(*engine, more, lattice, options),
+            more.positions.back());
+    }
+    // Probes are in the mesh's frame, charges in the map's.
+    const Vec3d here = more.positions.back(), there = to_map.apply(here);
+    check(engine->isolated_charges(m.positions, m.charges, {}, to_map),
+          engine->isolated_charges({there}, {0.7F}, {}, to_map), here);
+    const GridPtr pb = pb_on_device(*engine, m, pb_lattice(m, 1.0, 8), {});
+    CHECK(message_of([&] {
+            engine->contributions(pb, mesh, {weights}, {{{500, 0, 0}, 0, 1}}, {});
+          }) == "a charge is asked about outside the potential's grid of 12 charges; give the grid a wider padding");
+  }
+}
+
 TEST_CASE("contributions have the same bits at 1, 2 and 4 threads") {
   const Molecule m = charged_chain();
   std::vector<double> first;
@@ -148,7 +189,7 @@ TEST_CASE("contributions have the same bits at 1, 2 and 4 threads") {
       if (engine->back_end() != "cpu") continue;
       const MeshPtr mesh = comparison_surface(*engine, m);
       const GridPtr map = pb_on_device(*engine, m, pb_lattice(m, 1.0, 8), {});
-      const auto found = engine->contributions(map, mesh, {some_weights(engine->n_vertices(mesh), 95)}, {});
+      const auto found = engine->contributions(map, mesh, {some_weights(engine->n_vertices(mesh), 95)}, {}, {});
       if (first.empty()) first = found.front();
       CHECK(std::memcmp(first.data(), found.front().data(), first.size() * sizeof(double)) == 0);
     }
@@ -163,19 +204,19 @@ TEST_CASE("maps that are no sum over charges have no contributions") {
     PoissonBoltzmannOptions options;
     options.nonlinear = true;
     const GridPtr nonlinear = pb_on_device(*engine, m, pb_lattice(m, 1.0, 8), options);
-    CHECK(message_of([&] { engine->contributions(nonlinear, mesh, weights, {}); }) ==
+    CHECK(message_of([&] { engine->contributions(nonlinear, mesh, weights, {}, {}); }) ==
           "the nonlinear Poisson-Boltzmann equation has no causes: its potential is not a sum over charges; take the "
           "linearized equation");
     const GridPtr given = engine->upload_map(engine->download(nonlinear), {});
-    CHECK(message_of([&] { engine->contributions(given, mesh, weights, {}); }) ==
+    CHECK(message_of([&] { engine->contributions(given, mesh, weights, {}, {}); }) ==
           "a given potential map does not say which charges it is made of; let the potential be computed");
     const GridPtr map = engine->isolated_charges(m.positions, m.charges, {}, {});
-    CHECK(message_of([&] { engine->contributions(map, mesh, {{1.0}}, {}); }) ==
+    CHECK(message_of([&] { engine->contributions(map, mesh, {{1.0}}, {}, {}); }) ==
           "a reading needs one weight for each vertex");
     const GridPtr small = pb_on_device(*engine, m, pb_lattice(m, 1.0, 4), {});
     std::vector<Vec3f> far = engine->download_positions(mesh);
     far[0] = far[0] + Vec3f{500, 0, 0};
-    CHECK(message_of([&] { engine->contributions(small, engine->with_positions(mesh, far), weights, {}); }) ==
+    CHECK(message_of([&] { engine->contributions(small, engine->with_positions(mesh, far), weights, {}, {}); }) ==
           "a reading has weight outside the potential map");
   }
 }

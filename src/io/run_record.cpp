@@ -1,5 +1,5 @@
-// run_record.cpp: extracts from OUT.json what pictures need.
-#include "view/run_record.h"
+// run_record.cpp: extracts from OUT.json what pictures and other files of a result need.
+#include "io/run_record.h"
 
 #include <filesystem>
 #include <fstream>
@@ -10,6 +10,7 @@
 #include "io/json_values.h"
 #include "io/read_input.h"
 #include "io/sha256.h"
+#include "io/structure_file.h"
 
 namespace espdiff {
 namespace {
@@ -64,6 +65,26 @@ void read_superposition(const Json& json, RigidTransform& transform) {
   transform.translation = {shift.at(0), shift.at(1), shift.at(2)};
 }
 
+void read_parts(const Json& json, std::map<std::string, std::vector<int>>& parts) {
+  const auto add = [&](const std::string& name, const Json& part) {
+    if (!part.is_object() || !part.contains("residues")) return;
+    for (const Json& residue : part.at("residues")) parts[name].push_back(integer_of<int>(residue));
+  };
+  if (json.contains("region")) add("region", json.at("region"));
+  if (!json.contains("fixed_patches")) return;
+  for (const auto& [name, part] : json.at("fixed_patches").items()) add("patch " + name, part);
+}
+
+void read_names(const Json& json, RunRecord& record) {
+  for (const Json& input : json.at("inputs")) {
+    const std::string role = input.at("role");
+    std::string* const name = role.rfind("source", 0) == 0 ? &record.source_name : &record.target_name;
+    if (role != "source" && role != "target" && role != "source_file" && role != "target_file") continue;
+    // Of a state that is kept beside the result, the file that it was made of.
+    if (name->empty() || role.size() > 6) *name = fs::path(input.at("path").get<std::string>()).filename().string();
+  }
+}
+
 }  // namespace
 
 RunRecord read_run_record(const std::string& vtp_path) {
@@ -90,8 +111,11 @@ RunRecord read_run_record(const std::string& vtp_path) {
     if (json.contains("potential") && json.at("potential").is_object())
       record.potential = json.at("potential").at("label");
     record.trustworthy = json.at("certificate").at("trustworthy");
-    record.verdict = json.at("certificate").value("verdict", record.trustworthy ? "TRUSTWORTHY" : "NOT TRUSTWORTHY");
-    json.at("certificate").at("reasons").get_to(record.reasons);
+    const Json& certificate = json.at("certificate");
+    certificate.at("reasons").get_to(record.reasons);
+    record.verdict = certificate.value("verdict", record.trustworthy ? "TRUSTWORTHY" : "NOT TRUSTWORTHY");
+    read_parts(json, record.parts);
+    read_names(json, record);
   } catch (const Json::exception& error) {
     throw no_record(record.path, detail_of(error));
   } catch (const std::out_of_range&) {
@@ -99,6 +123,18 @@ RunRecord read_run_record(const std::string& vtp_path) {
   }
   record.found = true;
   return record;
+}
+
+Molecule read_compared(const RunRecord& record, const RecordedInput& input, bool with_water,
+                       const std::string& remedy) {
+  if (!record.found) throw InputError(record.path + ": no such file; it names the structures" + remedy);
+  std::error_code ignored;
+  if (!fs::exists(input.path, ignored)) throw InputError(input.path + " no longer exists" + remedy);
+  const StructureFile file(input.path);
+  if (file.sha256() != input.sha256) throw InputError(input.path + " has changed since the comparison" + remedy);
+  StructureOptions options = input.read_with;
+  if (with_water) options.include_hetero = options.include_water = true;
+  return file.read(options);
 }
 
 }  // namespace espdiff

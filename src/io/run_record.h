@@ -1,10 +1,12 @@
-// run_record.h: the inputs of a comparison from OUT.json, as far as pictures need them.
+// run_record.h: the inputs of a comparison from OUT.json, as far as pictures and other files of a result need them.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "base/structure_options.h"
+#include "base/types.h"
 #include "base/vector.h"
 
 namespace espdiff {
@@ -27,14 +29,22 @@ struct RunRecord {
   RigidTransform source_to_target;
   double temperature_K = 300;
   bool trustworthy = true;
-  std::string verdict = "trustworthy";  ///< in words
-  std::vector<std::string> reasons;     ///< why it is not
+  std::vector<std::string> reasons;  ///< why it is not
+  std::string verdict;               ///< in words: the certificate's own, or TRUSTWORTHY, NOT TRUSTWORTHY
+  std::string source_name, target_name;  ///< the structures' files without folders, as they were given
   std::string method;
+  std::map<std::string, std::vector<int>> parts;  ///< residues of "region" and of "patch NAME": indices of the source's
 };
 
 /// Reads the OUT.json beside an OUT.vtp. Input paths that are relative are taken from the folder where the comparison
 /// ran; when the recorded content is not there, from the folder of OUT.json.
 /// @throws FormatError when the file is damaged or is no record of a comparison
 RunRecord read_run_record(const std::string& vtp_path);
+
+/// Reads a structure as it was compared.
+/// @param with_water ligands and water too, whatever was compared
+/// @param remedy     what to do if it cannot be had, such as "; compare again"
+/// @throws InputError (no record, the file is gone or has changed), and as read_structure()
+Molecule read_compared(const RunRecord& record, const RecordedInput& input, bool with_water, const std::string& remedy);
 
 }  // namespace espdiff

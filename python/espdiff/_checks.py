@@ -1,0 +1,56 @@
+"""Arguments of the wrong kind, as one InputError that names the argument."""
+
+import operator
+import os
+
+from ._core import InputError
+
+
+def whole(name, value, least=0):
+    """A whole number, not a bool."""
+    try:
+        if isinstance(value, bool):
+            raise TypeError
+        number = operator.index(value)
+    except TypeError:
+        raise InputError(f"{name}: {value!r} is not a whole number") from None
+    if number < least:
+        raise InputError(f"{name}: {number} is less than {least}")
+    return number
+
+
+def text(name, value):
+    if not isinstance(value, str):
+        raise InputError(f"{name}: {value!r} is not a text")
+    return value
+
+
+def path(name, value):
+    if not isinstance(value, (str, os.PathLike)):
+        raise InputError(f"{name}: a {type(value).__name__} is not a path")
+    return os.fspath(value)
+
+
+def switch(name, value):
+    if value not in (True, False):
+        raise InputError(f"{name}: {value!r} is not True or False")
+    return bool(value)
+
+
+def several(name, value, what):
+    """A list of something that is not the thing itself."""
+    if isinstance(value, (str, bytes, os.PathLike, dict)) or not hasattr(value, "__iter__"):
+        raise InputError(f"{name}: a {type(value).__name__} is no list of {what}; give [first, second, ...]")
+    return list(value)
+
+
+def listener(value):
+    if value is None or isinstance(value, bool) or callable(value):
+        return value
+    raise InputError(f"progress: {value!r} is neither True nor a function of (stage, fraction)")
+
+
+def computation(potential, device, threads, pme_cell="auto", progress=None):
+    """What every computation takes: how potentials are made, where, by how many threads."""
+    listener(progress)
+    return text("potential", potential), text("pme_cell", pme_cell), text("device", device), whole("threads", threads)

@@ -1,0 +1,23 @@
+// plot_pair.h: what `espdiff plot` draws of a comparison.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "io/read_csv.h"
+#include "plot/state_plot.h"
+
+namespace espdiff::cli {
+
+/// A result is named by its prefix or one of its files; the table of a comparison's residues is what is drawn of it.
+std::string file_to_plot(const std::string& given);
+
+/// Whether it is the OUT.residues.csv of a comparison.
+bool is_pair_table(const CsvTable& table);
+
+/// The residues of a comparison that have a mean in both states.
+/// @param bars the `top` ones that differ most (0: all); otherwise all in file order
+/// @throws InputError (shapes alone were compared)
+StatePlot state_plot(const CsvTable& table, bool bars, std::size_t top, const std::string& title);
+
+}  // namespace espdiff::cli
