@@ -36,9 +36,9 @@ bool draws_maps(const Scene& scene) {
 bool same_things(const Scene& a, const Scene& b) {
   return a.layout == b.layout && a.n_views == b.n_views && a.width == b.width && a.height == b.height &&
          a.surface == b.surface && a.molecule == b.molecule && a.around_A == b.around_A && a.n_labels == b.n_labels &&
-         a.causes == b.causes && a.focus == b.focus && a.isopotentials == b.isopotentials && a.offsets_A == b.offsets_A &&
-         a.n_field_lines == b.n_field_lines && a.slice == b.slice && a.legend == b.legend &&
-         a.title.empty() == b.title.empty() && a.colours == b.colours;
+         a.causes == b.causes && a.focus == b.focus && a.isopotentials == b.isopotentials &&
+         a.offsets_A == b.offsets_A && a.n_field_lines == b.n_field_lines && a.slice == b.slice &&
+         a.legend == b.legend && a.title.empty() == b.title.empty() && a.colours == b.colours;
 }
 
 }  // namespace

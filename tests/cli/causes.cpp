@@ -132,9 +132,10 @@ TEST_CASE("causes: side chains in other places give an interval, the same at eac
   const std::string source = files.folder.write("long.pqr", files.with_lysine(0)),
                     target = files.folder.write("turned.pqr", files.with_lysine(1));
   for (const std::string potential : {"--potential pb --pb-spacing 0.8", "--potential coulomb"}) {
-    const std::string command = "compare " + source + " " + target + " -o " + files.folder.file("out") +
-                                " --domains none --region '//A/3' --causes region --causes whole --side-chains 200 " +
-                                potential;
+    const std::string command =
+        "compare " + source + " " + target + " -o " + files.folder.file("out") +
+        " --domains none --region '//A/3' --causes region --causes whole --side-chains 200 --exit-zero --overwrite " +
+        potential;
     const Outcome outcome = run_espdiff(command);
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
     const Json reading = files.json()["causes"][0], chains = reading["side_chains"];

@@ -198,7 +198,9 @@ TEST_CASE("a patch of an earlier result is measured in every command, and says h
   REQUIRE_MESSAGE(matrix.status == 0, matrix.err);
   CHECK(contains(read_file(in.folder.file("all.json")), "first_mean_signed_difference"));
   CHECK(contains(
-      in.run("compare w1.pqr m1.pqr --patch first=out.json:1 --grid-spacing 1.5 --potential coulomb -o pair").out,
+      in.run(
+            "compare w1.pqr m1.pqr --patch first=out.json:1 --grid-spacing 1.5 --potential coulomb --overwrite -o pair")
+          .out,
       "patch 1 of out.json; "));
   // What is none.
   const auto refused = [&](const std::string& text) {
@@ -567,7 +569,7 @@ TEST_CASE("models of ubiquitin: through the template, a pair differs as compare 
   }
   // Neither of the two is the template.
   REQUIRE(in.run("compare " + *models + "/m01.pqr " + *models +
-                 "/m02.pqr --grid-spacing 1.5 --potential coulomb -q -o pair")
+                 "/m02.pqr --grid-spacing 1.5 --potential coulomb -q --exit-zero -o pair")
               .status == 0);
   const auto pair = nlohmann::json::parse(read_file(in.folder.file("pair.json")));
   CHECK(through_template == doctest::Approx(pair.at("mean_abs_difference").get<double>()).epsilon(0.15));

@@ -84,8 +84,9 @@ TEST_CASE("next: ligands of both files are named at once, and made by the comman
   if (!source || !has_pdb2pqr()) return;
   const ScratchFolder folder;
   std::string with_ligand = read_file(*target);
-  const std::string group = "HETATM 9990  C1  LIG A 901      60.000  60.000  60.000  1.00  0.00           C\n"
-                            "HETATM 9991  C2  LIG A 901      61.520  60.000  60.000  1.00  0.00           C\n";
+  const std::string group =
+      "HETATM 9990  C1  LIG A 901      60.000  60.000  60.000  1.00  0.00           C\n"
+      "HETATM 9991  C2  LIG A 901      61.520  60.000  60.000  1.00  0.00           C\n";
   with_ligand.insert(with_ligand.find("\nHETATM") + 1, group);
   const std::string run = "compare " + *source + " " + folder.write("t.pdb", with_ligand) +
                           " --select //A --grid-spacing 2 --pb-spacing 1.5 --device cpu -q --exit-zero -o " +

@@ -53,7 +53,8 @@ TEST_CASE("the order of residues and atoms in the files changes no number") {
         "--potential coulomb --method deform"}) {
     const auto result = [&](const std::string& files) {
       const Outcome outcome =
-          run_espdiff("compare " + files + " -o r -q --exit-zero --overwrite --device cpu " + options, "cd " + folder.file("") + " &&");
+          run_espdiff("compare " + files + " -o r -q --exit-zero --overwrite --device cpu " + options,
+                      "cd " + folder.file("") + " &&");
       REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
       return nlohmann::json::parse(read_file(folder.file("r.json")));
     };

@@ -30,7 +30,8 @@ struct PatchFiles {
 const std::string kPatches = " --patch site=//A/2-4 --patch far-end=//A/8-9";
 
 Json compared(const PatchFiles& files, const std::string& arguments, const std::string& name = "one") {
-  const Outcome outcome = run_espdiff("compare " + arguments + kUsual + " --exit-zero --overwrite -o " + files.out(name));
+  const Outcome outcome =
+      run_espdiff("compare " + arguments + kUsual + " --exit-zero --overwrite -o " + files.out(name));
   REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
   return Json::parse(read_file(files.out(name + ".json")));
 }

@@ -133,9 +133,9 @@ TEST_CASE("compare: copies are said, and swapped chains of a dimer are not compa
     (is_a ? second : first) += line + "\n";
   }
   const std::string swapped = folder.write("swapped.pdb", first + second);
-  const Outcome outcome =
-      run_espdiff("compare " + *tim + " " + swapped + " --select ';polymer' --potential none --grid-spacing 2 --exit-zero --no-trials -o " +
-                  folder.file("out"));
+  const Outcome outcome = run_espdiff(
+      "compare " + *tim + " " + swapped +
+      " --select ';polymer' --potential none --grid-spacing 2 --exit-zero --no-trials -o " + folder.file("out"));
   CHECK(outcome.status == 0);
   CHECK(contains(outcome.out, "Copies in the source             chains A, B repeat one sequence"));
   const nlohmann::json json = json_of(folder.file("out.json"));
@@ -147,7 +147,8 @@ TEST_CASE("compare: without PDB2PQR shapes alone are compared, and why is said")
   const auto source = real_input("t4l/3lzm_from_bcif.pdb");
   if (!source) return;
   const ScratchFolder folder;
-  const std::string call = "compare " + *source + " " + *source + " --grid-spacing 2 --exit-zero --no-trials --overwrite -o " + folder.file("out");
+  const std::string call = "compare " + *source + " " + *source +
+                           " --grid-spacing 2 --exit-zero --no-trials --overwrite -o " + folder.file("out");
   const Outcome outcome = run_espdiff(call, "ESPDIFF_PDB2PQR=/no/such/program");
   CHECK(outcome.status == 0);
   CHECK(contains(outcome.out, "has no charges, and PDB2PQR, which assigns some, is not there; install it"));

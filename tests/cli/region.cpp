@@ -72,8 +72,8 @@ TEST_CASE("trajectory: the region's columns are compare's region, frame by frame
   check_run(run + "-o " + files.out("t.csv"));
   const espdiff::CsvTable table = espdiff::read_csv(files.out("t.csv"));
   for (int model = 1; model <= 3; ++model) {
-    check_run("compare --exit-zero --overwrite --no-trials " + files.a + " " + files.frames + region + "--target-model " + std::to_string(model) + " -o " +
-              files.out("one"));
+    check_run("compare --exit-zero --overwrite --no-trials " + files.a + " " + files.frames + region +
+              "--target-model " + std::to_string(model) + " -o " + files.out("one"));
     check_region(Json::parse(read_file(files.out("one.json"))), table, static_cast<std::size_t>(model - 1));
   }
   CHECK(cell(table, 0, "region_reasons").size() < 500);
@@ -120,7 +120,8 @@ TEST_CASE("matrix: the region's values are compare's region, in files, states an
   const std::string region = " --region '//*/1-4' ", run = "matrix " + files.a + " " + files.b + " " + files.c + region;
   check_run(run + "--cluster-by region_mean_abs_difference -o " + files.out("m"));
   const espdiff::CsvTable table = espdiff::read_csv(files.out("m.csv"));
-  check_run("compare --exit-zero --overwrite --no-trials " + files.a + " " + files.c + region + "-o " + files.out("one"));
+  check_run("compare --exit-zero --overwrite --no-trials " + files.a + " " + files.c + region + "-o " +
+            files.out("one"));
   const Json one = Json::parse(read_file(files.out("one.json")));
   check_region(one, table, 1, 1e-5);
   const Json matrix = Json::parse(read_file(files.out("m.json")));

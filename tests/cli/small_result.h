@@ -28,8 +28,8 @@ struct SmallResult {
     const auto file = real_input("nmr/1l2y.pdb");
     if (!file) return;
     prefix = folder.file("result");
-    const Outcome compared =
-        run_espdiff("compare " + *file + " " + *file + " --target-model 5 " + options + " -q --exit-zero --overwrite -o " + prefix);
+    const Outcome compared = run_espdiff("compare " + *file + " " + *file + " --target-model 5 " + options +
+                                         " -q --exit-zero --overwrite -o " + prefix);
     REQUIRE(compared.status == 0);
   }
   OrderedJson record() const { return OrderedJson::parse(read_file(prefix + ".json")); }

@@ -15,7 +15,8 @@ namespace {
 
 /// Compares, and expects a trustworthy result that verify confirms.
 Json trusted(const ScratchFolder& folder, const std::string& pair) {
-  const Outcome compared = run_espdiff("compare " + pair + " --device cpu -q --exit-zero --overwrite -o " + folder.file("out"));
+  const Outcome compared =
+      run_espdiff("compare " + pair + " --device cpu -q --exit-zero --overwrite -o " + folder.file("out"));
   REQUIRE_MESSAGE(compared.status == 0, compared.err);
   CHECK_MESSAGE(compared.out.rfind("TRUSTWORTHY", 0) == 0, compared.out);
   Json json = Json::parse(read_file(folder.file("out.json")));

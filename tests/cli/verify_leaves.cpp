@@ -62,8 +62,8 @@ struct RowResult : SmallResult {
       REQUIRE(run_espdiff("potential " + state + " --method coulomb -q --overwrite -o " + state + ".dx").status == 0);
       potentials = " --source-map " + a + ".dx --target-map " + b + ".dx ";
     }
-    const Outcome compared =
-        run_espdiff("compare " + a + " " + b + potentials + options + " --device cpu --grid-spacing 1 -q --exit-zero --overwrite -o " + prefix);
+    const Outcome compared = run_espdiff("compare " + a + " " + b + potentials + options +
+                                         " --device cpu --grid-spacing 1 -q --exit-zero --overwrite -o " + prefix);
     REQUIRE_MESSAGE(compared.status == 0, compared.err);
   }
   static std::string two_chains(double bend) {

@@ -109,7 +109,8 @@ TEST_CASE("charge_groups: Open Babel makes a ligand's hydrogens and charges; wit
     message = error.what();
   }
   unsetenv("ESPDIFF_OBABEL");
-  CHECK(message.find("LIG 1 of chain A: Open Babel, which makes its hydrogens and charges, is not there; install") != std::string::npos);
+  CHECK(message.find("LIG 1 of chain A: Open Babel, which makes its hydrogens and charges, is not there; install") !=
+        std::string::npos);
   if (find_open_babel().empty()) {
     MESSAGE("SKIPPED: no Open Babel on PATH");
     return;

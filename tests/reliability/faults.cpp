@@ -131,7 +131,7 @@ TEST_CASE("a disk that is full, and a file at its limit of size, leave nothing")
 TEST_CASE("closed standard streams are not taken for outputs") {
   const Frames in;
   REQUIRE(in.run("compare a.pqr m1.pqr --grid-spacing 1.5 -o good").status == 0);
-  const std::string base = "compare a.pqr m1.pqr --grid-spacing 1.5 --device cpu --threads 1 -o ";
+  const std::string base = "compare a.pqr m1.pqr --grid-spacing 1.5 --device cpu --threads 1 --overwrite -o ";
   for (const char* closed : {"<&-", ">&-", "2>&-", "<&- >&- 2>&-"}) {
     CAPTURE(closed);
     const std::string command = "cd " + in.folder.file("") + " && " ESPDIFF_BINARY " " + base + "out " + closed;
