@@ -286,7 +286,8 @@ Verb add_compare(CLI::App& app) {
       "result.residues.csv,\nwith --causes result.causes.csv, with --scan result.scan.csv, with --side-chains "
       "result.side-chains.csv.\n"
       "Exit status: 0 done, 1 could not compute, 2 wrong usage or input, 3 done, and the result is NOT TRUSTWORTHY (0 "
-      "with --exit-zero).\nA result that is TRUSTWORTHY ON a part of the surface is 0, unless --require asks for more.");
+      "with --exit-zero).\nA result that is TRUSTWORTHY ON a part of the surface is 0, unless --require asks for "
+      "more.");
   add_input_options(*parser, *arguments);
   add_structure_options(*parser, arguments->structure);
   add_settings(*parser, arguments->settings, SettingsFor::kPair);

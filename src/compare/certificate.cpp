@@ -24,7 +24,7 @@ struct Limits {
   /// Of either surface: what only one state has is new in one direction and lost in the other.
   static constexpr double kMaxUnmatched = 0.1;
   static constexpr std::size_t kSelfIntersectingPairs = 0;
-  static constexpr double kResidueCorrelation = 0.9;
+  static constexpr double kResidueCorrelation = 0.93;
   /// Where the differences by residue err by less than this share of the potentials, they are noise: after smooth
   /// motions that the mapping followed everywhere, they err by 5 to 8 %.
   static constexpr double kResidueNoise = 0.1;

@@ -37,8 +37,8 @@ constexpr std::size_t kNumberOfWhys = 8;
 /// The key in OUT.json: "slipped".
 const char* key_of(Why why);
 
-/// Of a point on a residue that touches its own: a quarter of the lattice's spacing.
-constexpr double kBorder_A = 0.25;
+/// Of a point on a residue that touches its own: a fifth of the lattice's spacing.
+constexpr double kBorder_A = 0.2;
 /// From this share of both surfaces on, a result is trustworthy as a whole.
 constexpr double kWholeShare = 0.95;
 

@@ -140,7 +140,10 @@ std::string report_page(const std::string& prefix, const std::string& title) {
   Json page = {{"title", title.empty() ? title_of(files) : title},
                {"source", name_of_input(files, "source")},
                {"target", name_of_input(files, "target")}};
-  page["verdict"] = {{"trustworthy", verdict.trustworthy}, {"text", verdict.text}, {"reasons", verdict.reasons}, {"parts", verdict.parts}};
+  page["verdict"] = {{"trustworthy", verdict.trustworthy},
+                     {"text", verdict.text},
+                     {"reasons", verdict.reasons},
+                     {"parts", verdict.parts}};
   page["warnings"] = verdict.warnings;
   page["numbers"] = numbers_of(files.record, files.unit);
   page["residues"] = residues_of(files.residues);

@@ -200,9 +200,7 @@ Verdict verdict_of(const PairFiles& files) {
   Verdict verdict;
   verdict.trustworthy = certificate.at("trustworthy").get<bool>();
   verdict.text = text_of(certificate, "verdict");
-  if (verdict.text.empty())
-    verdict.text =
-        verdict.trustworthy ? "TRUSTWORTHY" : "NOT TRUSTWORTHY";
+  if (verdict.text.empty()) verdict.text = verdict.trustworthy ? "TRUSTWORTHY" : "NOT TRUSTWORTHY";
   verdict.reasons = texts_of(certificate, "reasons");
   verdict.parts = texts_of(certificate, "untrusted_parts");
   verdict.warnings = texts_of(files.record, "warnings");

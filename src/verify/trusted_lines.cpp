@@ -8,7 +8,7 @@
 namespace espdiff {
 namespace {
 
-constexpr double kTrustedSlip_A = 3, kTrustedBorder_A = 0.25, kLeastCheckedArea_A2 = 5;
+constexpr double kTrustedSlip_A = 3, kTrustedBorder_A = 0.2, kLeastCheckedArea_A2 = 5;
 /// Of the area: slip and residues are single precision, and medians jump.
 constexpr double kTrustTolerance = 2e-3;
 using Partners = std::map<std::int32_t, std::int32_t>;

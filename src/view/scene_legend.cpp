@@ -110,12 +110,11 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   const auto needed = [&](bool drawn, const char* meaning) {
     return drawn ? legend.key_width(meaning) + paper.text_height : 0.0;
   };
-  const double all = needed(no_value, "no value") + needed(untrusted, "not trusted") + needed(unmatched, unmatched_words);
+  const double all =
+      needed(no_value, "no value") + needed(untrusted, "not trusted") + needed(unmatched, unmatched_words);
   const double y = paper.height * 0.02 + paper.text_height / 2;
   double x = std::min(paper.width * left, paper.width - all);
-  const auto key = [&](const char* meaning) {
-    x += legend.key(x, y, kNoValueColour, 1, meaning) + paper.text_height;
-  };
+  const auto key = [&](const char* meaning) { x += legend.key(x, y, kNoValueColour, 1, meaning) + paper.text_height; };
   if (no_value) key("no value");
   if (untrusted) key("not trusted");
   if (unmatched) legend.hatched_key(x, y, unmatched_words);
@@ -155,6 +154,7 @@ void add_head(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   }
   std::string verdict = record.verdict;
   if (!record.reasons.empty()) verdict += ": " + record.reasons.front();
+  if (record.trustworthy && !record.untrusted_parts.empty()) verdict += ": not " + record.untrusted_parts.front();
   const double n_names = std::min(0.35 * paper.width / letter, static_cast<double>(names.size()));
   legend.text(0.015 * paper.width, y, shortened(names, n_names), Align::kLeft);
   const double left = 0.03 * paper.width + n_names * letter;

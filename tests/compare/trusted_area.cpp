@@ -75,10 +75,10 @@ TEST_CASE("each triangle has the first reason that holds") {
                Why::kTrusted, Why::kTrusted}));
 }
 
-TEST_CASE("a point on a residue that touches its own counts within a quarter of one") {
+TEST_CASE("a point on a residue that touches its own counts within 0.2 A") {
   MappedSurface s = separate_triangles(2);
   s.target_residue = {0, 1, 1, 1, 1, 1};  // both residues share the first triangle
-  s.slip.assign(6, 0.2F);
+  s.slip.assign(6, 0.1F);
   const std::vector<std::int32_t> target_of = {0, 1};
   CHECK(espdiff::why_of_mapping(s, target_of) == codes({Why::kTrusted, Why::kTrusted}));
   s.slip[1] = s.slip[2] = 0.3F;
