@@ -210,9 +210,6 @@ void add_comparison(nb::module_& module) {
                    "(vertices) float32, A; NaN where unmatched or without partner; empty if no atoms pair.")
       .def_prop_ro("path_length", array_of(&S::path_length), "(vertices) float32, A; NaN where unmatched.")
       .def_prop_ro("residue_index", array_of(&S::residue), "(vertices) int32: row of `residues`; -1 for none.")
-      .def_prop_ro(
-          "verdict", [](const Comparison& c) { return verdict_of(c.result.certificate); },
-          "TRUSTWORTHY, TRUSTWORTHY ON 83 %, or NOT TRUSTWORTHY.")
       .def_prop_ro("corrupt", array_of(&S::corrupt), "(triangles) uint8: not 0 where it is off the target's surface.")
       .def_prop_ro(
           "why", array_of(&S::why),
