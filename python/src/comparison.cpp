@@ -126,7 +126,9 @@ std::vector<std::string> save(const Comparison& c, const std::string& prefix) {
   std::vector<std::string> inputs;
   for (const InputFile& input : c.provenance.inputs) inputs.push_back(input.path);
   check_outputs(inputs, files);
-  if (c.result.causes != nullptr) files.push_back(prefix + kCausesEnding);
+  if (c.result.causes != nullptr) {
+    for (const std::string& ending : cause_endings(c.options)) files.push_back(prefix + ending);
+  }
   const nb::gil_scoped_release unlocked;
   write_compare(prefix, c.source_molecule, c.target_molecule, c.result, c.options, c.provenance, c.kept);
   return files;
