@@ -63,7 +63,7 @@ Row plain_row(const std::string& name, std::size_t peer, const ComparisonFiles& 
   row.window->SetAlphaBitPlanes(1);
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
-  const auto surface = like.geometry().part(SurfacePart::kTrusted);
+  const auto surface = like.geometry().part(SurfacePart::kMatched);
   vtkNew<vtkUnsignedCharArray> colours;
   colours->SetNumberOfComponents(4);
   const ColourScale& scale = like.scale(scene.array);

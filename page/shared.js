@@ -55,8 +55,10 @@ const Page = (() => {
     const verdict = byId('verdict');
     verdict.classList.toggle('refused', !record.verdict.trustworthy);
     add(verdict, 'strong', record.verdict.text);
-    for (const list of [record.verdict.reasons, record.warnings]) {
+    const parts = record.verdict.parts || [];
+    for (const list of [record.verdict.reasons, parts, record.warnings]) {
       if (!list.length) continue;
+      if (list === parts) add(verdict, 'p', 'Not trusted');
       if (list === record.warnings) add(verdict, 'p', 'Warnings');
       const items = add(verdict, 'ul');
       for (const text of list) add(items, 'li', text);

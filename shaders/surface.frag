@@ -5,12 +5,13 @@
 
 // Constants of the program, #defined above this file, because software renderers pay for every branch.
 const bool perFragment = PER_FRAGMENT;  // otherwise interpolated between the vertices' values (no maps)
-const int part = PART;                  // 0 trusted, 1 corrupt, 2 unmatched
+const int part = PART;                  // 0 matched, 1 unmatched
 const int colourBy = COLOUR_BY;         // the numbers of RenderArray
 const bool fades = FADES;
 const bool toGrey = TO_GREY;  // fades to grey, and stays opaque
 const bool split = SPLIT;
 const bool cuts = CUTS;          // along smooth borders of unmatched parts
+const bool marks = MARKS;        // grey where the place on the target is not trusted
 const bool outlines = OUTLINES;  // residues, by a dark line
 
 in vec3 positionVC;
@@ -22,7 +23,7 @@ in float displacementFS;
 in float slipFS;
 in float uncertaintyFS;
 flat in float residueIndexFS;
-in vec2 bordersFS;
+in vec3 bordersFS;
 in vec3 startFS;                // on the source, and where it is drawn
 in vec3 placeFS;
 
@@ -72,8 +73,7 @@ float fadedHere()
 
 float opacityHere()
 {
-  if (part == 1) return 0.3;
-  if (part == 2) return 1.0;
+  if (part == 1) return 1.0;
   return fades && !toGrey ? mix(fade.w, fade.z, fadedHere()) : fade.w;
 }
 
@@ -102,11 +102,13 @@ void main()
   //VTK::Depth::Impl
   //VTK::DepthPeeling::PreColor
   if (split && (gl_FragCoord.x < shownColumns.x || gl_FragCoord.x >= shownColumns.y)) discard;
-  bool atBorder = cuts && part != 1 && onLine(bordersFS.x, 0.2 * hatchPitch);
+  bool atBorder = cuts && onLine(bordersFS.x, 0.2 * hatchPitch);
   bool atOutline = outlines && onLine(bordersFS.y, 0.4 * hatchPitch);
   if (cuts && part == 0 && bordersFS.x < 0.5) discard;
-  if (cuts && part == 2 && (bordersFS.x >= 0.5 || spansTear())) discard;
-  vec3 colour = part == 1 ? noValueColour : part == 2 ? (onStripe() ? noValueColour : vec3(0.93)) : surfaceColour();
+  if (cuts && part == 1 && (bordersFS.x >= 0.5 || spansTear())) discard;
+  vec3 colour = part == 1                    ? (onStripe() ? noValueColour : vec3(0.93))
+                : marks && bordersFS.z < 0.5 ? noValueColour
+                                             : surfaceColour();
   if (toGrey && part == 0) colour = mix(colour, vec3(0.35), fadedHere());
   if (atBorder) colour = vec3(0.25);
   if (atOutline) colour = vec3(0.05);

@@ -10,7 +10,7 @@ in float displacement;       // Angstrom; negative: unknown
 in float slip;               // Angstrom; negative: unknown
 in float uncertainty;        // Angstrom, smoothed; negative: unknown
 in float residueIndex;       // negative: none
-in vec2 borders;             // shares of matched and of outlined surroundings; borders lie at 0.5
+in vec3 borders;             // shares of matched, outlined, trusted surroundings; borders lie at 0.5
 
 uniform mat4 MCDCMatrix;     // names that VTK's mapper sets
 uniform mat4 MCVCMatrix;
@@ -26,7 +26,7 @@ out float displacementFS;
 out float slipFS;
 out float uncertaintyFS;
 flat out float residueIndexFS;
-out vec2 bordersFS;
+out vec3 bordersFS;
 out vec3 startFS;
 out vec3 placeFS;
 

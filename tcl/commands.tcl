@@ -137,7 +137,8 @@ namespace eval ::espdiff {
                 surface does; plain: full colours" {fade transparent plain}}
             {-uncertainty-limit positive 2.0 "Slip at which colours have faded completely, Angstrom; below half\
                 of it nothing fades"}
-            {-corrupt choice uncertain "Parts off the target's surface: uncertain, marked in yellow, or not drawn"\
+            {-corrupt choice uncertain "Parts that are not trusted (the array why): faded like what is most uncertain,\
+                marked in yellow, or not drawn"\
                 {uncertain mark hide}}
             {-surface choice mapped "mapped: on the target; source: on the source" {mapped source}}
             {-legend boolean 1 "A colour bar with title and unit at the window's bottom"}

@@ -25,7 +25,7 @@ namespace eval ::espdiff {
 
     variable plain_color 2    ;# gray, neutral_grey as a number: no quantity, points outside a map, what is uncertain
     variable stripe_color 8   ;# white: light stripes of what has no counterpart
-    variable marked_color 4   ;# yellow: corrupt parts with -corrupt mark
+    variable marked_color 4   ;# yellow: parts that are not trusted, with -corrupt mark
     variable said_rendermode 0  ;# whether the user was told that transparency needs GLSL
 
     proc draw {options handle} {

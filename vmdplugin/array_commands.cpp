@@ -64,6 +64,7 @@ Tcl_Obj* comparison_array(const MappedSurface& s, const std::string& name) {
   if (name == "residue_index") return array(s.residue);
   if (name == "corrupt") return array(s.corrupt);
   if (name == "unmatched") return array(s.unmatched);
+  if (name == "why") return array(s.why);
   if (name == "slip") return array(s.slip);
   if (name == "source_potential") return array(s.potential_source);
   if (name == "target_potential") return array(s.potential_target);

@@ -69,7 +69,9 @@ DrawnSurface drawn_surface(const std::string& handle, const Object& object, cons
   }
   if (which == "uncovered") return drawn_uncovered(comparison->result.uncovered);
   drawn.triangles = &s.triangles;
-  drawn.corrupt = s.corrupt;
+  for (const std::uint8_t why : s.why)
+    drawn.untrusted.push_back(why != static_cast<std::uint8_t>(Why::kTrusted) &&
+                              why != static_cast<std::uint8_t>(Why::kUnmatched));
   drawn.unmatched = &s.unmatched;
   drawn.uncertainty = &vertex_uncertainty(s);
   return drawn;

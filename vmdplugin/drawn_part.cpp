@@ -10,7 +10,7 @@
 namespace espdiff::vmdplugin {
 namespace {
 
-/// Uncertainty of each vertex in units of the limit; 1 on the smooth border of corrupt parts.
+/// Uncertainty of each vertex in units of the limit; 1 on the smooth border of parts that are not trusted.
 std::vector<float> relative_uncertainty(const DrawnSurface& surface, const DrawnPart& part,
                                         const std::vector<float>& corrupt_share) {
   constexpr float kMost = 4;  // finite, so that it can be interpolated
@@ -33,7 +33,7 @@ class PartCutter {
   PartCutter(const DrawnSurface& surface, const DrawnPart& part, std::vector<float> values)
       : surface_(surface), part_(part), drawn_{ClippedSurface(surface.positions, surface.normals), 0, {}, {}, {}, {}} {
     const std::size_t n = surface.positions.size();
-    const std::vector<float> corrupt = flagged_share(*surface.triangles, surface.corrupt, n);
+    const std::vector<float> corrupt = flagged_share(*surface.triangles, surface.untrusted, n);
     drawn_.value = clipped_.add_field(std::move(values));
     uncertainty_ = clipped_.add_field(relative_uncertainty(surface, part, corrupt));
     corrupt_ = clipped_.add_field(corrupt);

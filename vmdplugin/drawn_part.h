@@ -14,7 +14,7 @@ namespace espdiff::vmdplugin {
 struct DrawnSurface {
   std::vector<Vec3f> positions, normals;
   const std::vector<Triangle>* triangles = nullptr;
-  std::vector<std::uint8_t> corrupt;                     ///< [triangle] empty where nothing was mapped
+  std::vector<std::uint8_t> untrusted;  ///< [triangle] matched and not trusted; empty where nothing was mapped
   const std::vector<std::uint8_t>* unmatched = nullptr;  ///< [triangle] null or empty for none
   bool has_unmatched_positions = false;                  ///< whether unmatched triangles can be drawn
   float border = 0.5F;  ///< share of unmatched triangles around the line at which the unmatched part begins
@@ -23,11 +23,11 @@ struct DrawnSurface {
 
 /// What one call of `triangles` draws.
 struct DrawnPart {
-  double limit_A = 0;                    ///< uncertainty at which colours have faded; 0 for no fading
-  float from = 0, to = 1e9;              ///< the band of uncertainty, in units of the limit
-  std::string corrupt;                   ///< uncertain: corrupt parts have the greatest uncertainty; mark, hide, normal
-  bool hatches = false;                  ///< draws unmatched parts, hatched
-  int plain = 0, marked = 0, light = 0;  ///< colour ids: no value, corrupt parts, light stripes
+  double limit_A = 0;        ///< uncertainty at which colours have faded; 0 for no fading
+  float from = 0, to = 1e9;  ///< the band of uncertainty, in units of the limit
+  std::string corrupt;   ///< uncertain: parts that are not trusted have the greatest uncertainty; mark, hide, normal
+  bool hatches = false;  ///< draws unmatched parts, hatched
+  int plain = 0, marked = 0, light = 0;  ///< colour ids: no value, parts that are not trusted, light stripes
 };
 
 /// The triangles of a part, by how they are coloured.
@@ -35,7 +35,7 @@ struct CutPart {
   ClippedSurface surface;
   ClippedSurface::FieldId value = 0;  ///< of the surface: the drawn quantity
   std::vector<Triangle> coloured;     ///< by the quantity
-  std::vector<Triangle> marked;       ///< corrupt
+  std::vector<Triangle> marked;       ///< not trusted
   std::vector<Triangle> dark, light;  ///< stripes of unmatched parts
 };
 

@@ -210,7 +210,13 @@ void add_comparison(nb::module_& module) {
                    "(vertices) float32, A; NaN where unmatched or without partner; empty if no atoms pair.")
       .def_prop_ro("path_length", array_of(&S::path_length), "(vertices) float32, A; NaN where unmatched.")
       .def_prop_ro("residue_index", array_of(&S::residue), "(vertices) int32: row of `residues`; -1 for none.")
-      .def_prop_ro("corrupt", array_of(&S::corrupt), "(triangles) uint8: not 0 where the mapping cannot be trusted.")
+      .def_prop_ro("corrupt", array_of(&S::corrupt), "(triangles) uint8: not 0 where it is off the target's surface.")
+      .def_prop_ro(
+          "why", array_of(&S::why),
+          "(triangles) uint8: 0 where it is trusted; 1 unmatched, 2 corrupt, 3 unpaired, 4 slipped, 5 on another "
+          "residue, 6 its residue disagrees, 7 without a potential.")
+      .def_prop_ro("target_residue_index", array_of(&S::target_residue),
+                   "(vertices) int32: the target's residue where a vertex is mapped to; -1 for none.")
       .def_prop_ro("unmatched", array_of(&S::unmatched),
                    "(triangles) uint8: not 0 where there is no counterpart; empty where all have one.")
       .def_prop_ro(

@@ -292,15 +292,16 @@ Verb add_compare(CLI::App& app) {
       "Writes result.json (numbers, certificate, provenance), result.vtp (mapped surface, for ParaView) and "
       "result.residues.csv,\nwith --causes result.causes.csv, with --scan result.scan.csv, with --side-chains "
       "result.side-chains.csv.\n"
-      "Exit status: 0 done, 1 could not compute, 2 wrong usage or input, 3 done, and the result is not trusted (0 with "
-      "--exit-zero).");
+      "Exit status: 0 done, 1 could not compute, 2 wrong usage or input, 3 done, and the result is NOT TRUSTWORTHY (0 "
+      "with --exit-zero).\nA result that is TRUSTWORTHY ON a part of the surface is 0, unless --require asks for "
+      "more.");
   add_input_options(*parser, *arguments);
   add_structure_options(*parser, arguments->structure);
   add_settings(*parser, arguments->settings, SettingsFor::kPair);
   add_device_options(*parser, arguments->device);
   parser->add_flag("-q,--quiet", arguments->quiet, "Print the verdict and the main number only");
   parser->add_flag("--overwrite", arguments->overwrite, "Replace a result of this name, if there is one");
-  parser->add_flag("--exit-zero", arguments->exit_zero, "Exit status 0, not 3, for a result that is not trusted");
+  parser->add_flag("--exit-zero", arguments->exit_zero, "Exit status 0, not 3, for a result that is NOT TRUSTWORTHY");
   parser->add_flag("--no-trials", arguments->no_trials,
                    "Do not try other commands after a result that is not trusted; without it those that take seconds "
                    "are tried, and the one that helps is printed");

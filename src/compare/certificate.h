@@ -19,11 +19,13 @@ Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& targe
 double same_residue_share(const MappedSurface& surface, const std::vector<std::int32_t>& source_residue,
                           const std::vector<std::int32_t>& target_residue, const std::vector<std::int32_t>& target_of);
 
-/// Why the fit of the mapped surface makes a result untrustworthy: corrupt, flipped, intersecting and unmatched area,
-/// and distances.
+/// Why the fit of the mapped surface makes a result untrustworthy: corrupt, flipped and intersecting area, distances.
 std::vector<Message> fit_reasons(const Certificate& certificate);
+/// Whether so much is unmatched that another mapping may do better; see choose_motions.h.
+std::vector<Message> unmatched_reasons(const Certificate& certificate);
 
-/// Sets the certificate's `trustworthy` and `reasons`.
-void judge(CompareResult& result, const Molecule& source);
+/// Sets the certificate's `trustworthy` and `reasons`, from its trusted area among others.
+/// @param required_share of both surfaces that has to be trusted
+void judge(CompareResult& result, const Molecule& source, double required_share);
 
 }  // namespace espdiff

@@ -13,8 +13,8 @@ namespace {
 
 std::vector<Message> mapping_reasons(const CompareResult& result, const Molecule& source) {
   std::vector<Message> reasons = fit_reasons(result.certificate);
-  const std::vector<Message> of_slip = slip_reasons(result, source);
-  reasons.insert(reasons.end(), of_slip.begin(), of_slip.end());
+  for (const std::vector<Message>& more : {unmatched_reasons(result.certificate), slip_reasons(result, source)})
+    reasons.insert(reasons.end(), more.begin(), more.end());
   return reasons;
 }
 

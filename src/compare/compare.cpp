@@ -222,8 +222,14 @@ struct Series::Steps {
     const std::vector<OwnPotential> own =
         own_potentials(engine.download_shape(mapping.source), s.residue, s.potential_source, target_of);
     const std::vector<std::int32_t> source_of = source_residues(target_of, target.molecule->residues.size());
-    set_own_differences(result.residues, own, own_on(target_surface, target_map, source_of), target_of);
-    const ResidueCheck check = check_residues(result.residues, own);
+    const std::vector<OwnPotential> own_on_target = own_on(target_surface, target_map, source_of);
+    set_own_differences(result.residues, own, own_on_target, target_of);
+    const std::vector<std::uint8_t> disagree = disagreeing_residues(result.residues, own);
+    mark_disagreeing(result.surface, disagree);
+    result.residues = residue_rows(s, result.residues.size(), true);
+    set_own_differences(result.residues, own, own_on_target, target_of);
+    ResidueCheck check = check_residues(result.residues, own);
+    check.n_disagreeing = static_cast<std::size_t>(std::count(disagree.begin(), disagree.end(), 1));
     bool applies = check.n_residues >= kLeastComparedResidues;
     constexpr double kSureCorrelation = 0.9;
     if (applies && !(check.correlation >= kSureCorrelation)) {
@@ -258,16 +264,22 @@ struct Series::Steps {
     result.uncovered =
         uncovered_surface(engine.download(target_surface.mesh),
                           engine.download(result.certificate.target_to_mapped.beyond), inverse(step.frame.from_target));
+    std::vector<PotentialSamples> samples;
     if (target_map != nullptr) {
-      compare_potentials(engine, {source, source_map.map, surface.atoms}, {target, target_map, target_surface.atoms},
-                         options, unit, parts, step);
+      samples = sample_potentials(engine, {source, source_map.map, surface.atoms},
+                                  {target, target_map, target_surface.atoms}, options, unit, step);
+      mark_without_potential(result.surface);
       result.certificate.outside_maps = share_outside(result.surface, matched_areas(result.surface));
       result.residues = residue_rows(result.surface, source.molecule->residues.size(), true);
     }
     check_against_own(target, target_map, step.mapping, target_surface, target_of, result);
+    if (target_map != nullptr) compare_potentials(engine, samples, parts, step);
     describe_chains(target, target_of, result);
-    judge(result, *source.molecule);
-    for (const MeasuredPart& part : parts) finish_part(part, result, *source.molecule);
+    Certificate& certificate = result.certificate;
+    certificate.trusted = sum_trusted(result.surface, {}, certificate.unmatched_target);
+    certificate.untrusted_parts = untrusted_parts(result.surface, result.residues, *source.molecule);
+    judge(result, *source.molecule, options.required_share);
+    for (const MeasuredPart& part : parts) finish_part(part, result, *source.molecule, options.required_share);
     clock.lap("metrics");
     if (options.causes.empty()) return;
     const PotentialSide of_source{source, source_map.map, surface.atoms},
@@ -329,7 +341,7 @@ struct Series::Steps {
   MappedStep map(const CompareInput& target, const Surface& target_surface, const CommonFrame& frame,
                  CompareResult result, const LastStep* before, const std::string& stage, const Progress& progress,
                  StageClock& clock) {
-    MappedStep step{frame, {}, {}, {}, {}, {}, {}, std::move(result)};
+    MappedStep step{frame, {}, {}, {}, {}, {}, std::move(result)};
     // deform needs no pairs; the morph says what it misses.
     if (options.method == Method::kMorph || !step.result.pairing.pairs.empty())
       step.paths = paths_to(*target.molecule, frame, step.result.pairing, progress);

@@ -5,6 +5,7 @@
 
 #include "base/handles.h"
 #include "compare/measured_parts.h"
+#include "compare/result.h"
 
 namespace espdiff {
 
@@ -17,12 +18,22 @@ struct PotentialSide {
   AtomsPtr atoms;
 };
 
-/// Samples both potentials and computes the metrics of their difference, at each distance outside the surfaces: over
-/// the valid area, all area, the area without slip, and each part. Vertices have the first distance's potentials.
+/// Both potentials at one distance outside the surfaces.
+struct PotentialSamples {
+  std::vector<float> source, target;  ///< [vertex] NaN outside a map and inside a surface
+  OffsetMetrics counted;              ///< without the metrics
+};
+
+/// Samples both potentials at each distance outside the surfaces. The result's vertices have those of the first.
 /// @param unit of both maps
 /// @throws as sample_outside(), count_outside()
-void compare_potentials(Engine& engine, const PotentialSide& source, const PotentialSide& target,
-                        const CompareOptions& options, PotentialUnit unit, const std::vector<MeasuredPart>& parts,
-                        MappedStep& step);
+std::vector<PotentialSamples> sample_potentials(Engine& engine, const PotentialSide& source,
+                                                const PotentialSide& target, const CompareOptions& options,
+                                                PotentialUnit unit, MappedStep& step);
+
+/// The metrics of the difference at each distance: over the trusted area, over all area, and over the trusted area of
+/// each part.
+void compare_potentials(Engine& engine, const std::vector<PotentialSamples>& samples,
+                        const std::vector<MeasuredPart>& parts, MappedStep& step);
 
 }  // namespace espdiff

@@ -66,9 +66,10 @@ void describe(Engine& engine, const Molecule& source, const Molecule& target, co
     set_unmatched_to_nan(step.is_matched, s.slip);
     step.result.certificate.slip = summarize_slip(s, matched_areas(s));
   }
-  step.mapped_residue = engine.vertex_residues(mapping.mapped, target_surface.atoms);
-  step.result.certificate.same_residue_area_fraction =
-      same_residue_share(s, s.residue, step.mapped_residue, paired_residues(source, target, step.result.pairing));
+  s.target_residue = engine.vertex_residues(mapping.mapped, target_surface.atoms);
+  const std::vector<std::int32_t> target_of = paired_residues(source, target, step.result.pairing);
+  step.result.certificate.same_residue_area_fraction = same_residue_share(s, s.residue, s.target_residue, target_of);
+  s.why = why_of_mapping(s, target_of);
   step.result.residues = residue_rows(s, source.residues.size(), false);
 }
 

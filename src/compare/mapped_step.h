@@ -18,9 +18,8 @@ struct MappedStep {
   std::vector<MovingAtom> paths;  ///< of all atoms from the source to the target; empty if the method needs none
   MorphResult morphed;            ///< by the morph
   Mapping mapping;
-  MeshPtr moved;                             ///< the source's surface, moved by its rigid domains
-  std::vector<bool> is_matched;              ///< [vertex] whether it lies in a matched triangle
-  std::vector<std::int32_t> mapped_residue;  ///< [vertex] index of the target residue, -1 for none
+  MeshPtr moved;                 ///< the source's surface, moved by its rigid domains
+  std::vector<bool> is_matched;  ///< [vertex] whether it lies in a matched triangle
   CompareResult result;
 };
 
@@ -29,7 +28,7 @@ struct MappedStep {
 void set_unmatched_to_nan(const std::vector<bool>& is_matched, std::vector<float>& values);
 
 /// Downloads a certified mapping and finds its residues and its slip: fills in the result's surface without normals and
-/// potentials, the slip, the area on the same residue, and the residues' rows without potentials.
+/// potentials, the slip, the area on the same residue, where it is trusted, and the residues' rows without potentials.
 /// @param source_surface, target_surface in the common frame
 void describe(Engine& engine, const Molecule& source, const Molecule& target, const Surface& source_surface,
               const Surface& target_surface, MappedStep& step);

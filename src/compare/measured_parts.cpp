@@ -42,7 +42,7 @@ std::vector<MeasuredPart> measure_parts(Engine& engine, const CompareInput& sour
   const MappedSurface& s = result.surface;
   const auto measure = [&](const std::vector<std::uint8_t>& inside, const std::vector<std::uint8_t>& residues) {
     SurfacePart place = make_part(inside, residues, s, target_of, target.molecule->residues.size());
-    auto part = part_result(engine, place, step.mapping, target_surface, isovalue, s.residue, step.mapped_residue,
+    auto part = part_result(engine, place, step.mapping, target_surface, isovalue, s.residue, s.target_residue,
                             target_of, result, *source.molecule, *target.molecule);
     parts.push_back({std::move(place), part, nullptr});
     return part;
@@ -63,7 +63,8 @@ std::vector<MeasuredPart> measure_parts(Engine& engine, const CompareInput& sour
   return parts;
 }
 
-void finish_part(const MeasuredPart& measured, const CompareResult& whole, const Molecule& source) {
+void finish_part(const MeasuredPart& measured, const CompareResult& whole, const Molecule& source,
+                 double required_share) {
   const SurfacePart& place = measured.place;
   CompareResult& part = *measured.result;
   for (const Warning& warning : whole.warnings) {
@@ -73,8 +74,10 @@ void finish_part(const MeasuredPart& measured, const CompareResult& whole, const
     if (place.source[row.residue] != 0) part.residues.push_back(row);
   }
   count_outside_maps(place, whole, part);
+  part.certificate.trusted = sum_trusted(whole.surface, place.outside, part.certificate.unmatched_target);
   if (judge_missing_part(part, measured.placement.get())) return;
-  judge(part, source);
+  part.certificate.untrusted_parts = untrusted_parts(whole.surface, part.residues, source);
+  judge(part, source, required_share);
   if (measured.placement != nullptr) judge_placement(part, *measured.placement);
 }
 

@@ -24,6 +24,7 @@ std::vector<MeasuredPart> measure_parts(Engine& engine, const CompareInput& sour
                                         const std::vector<std::int32_t>& target_of, MappedStep& step);
 
 /// A part's residues, vertices outside a map, and verdict, from the finished rows and warnings of the whole.
-void finish_part(const MeasuredPart& part, const CompareResult& whole, const Molecule& source);
+/// @param required_share as in judge()
+void finish_part(const MeasuredPart& part, const CompareResult& whole, const Molecule& source, double required_share);
 
 }  // namespace espdiff

@@ -57,8 +57,10 @@ struct CompareOptions {
   /// is what vertices and residues have; metrics are computed for all.
   std::vector<double> offsets_A{0};
   std::vector<std::string> causes;  ///< readings whose causes are wanted; see causes/reading.h
-  bool scan = false;                ///< for each of them, how a change of each residue's charges would shift it
-  int side_chains = 0;              ///< draws of other places of side chains, for each of them; 0 for none
+  /// Share of the source's surface, and of the target's, that has to be trusted; below it a result is not trustworthy.
+  double required_share = 0.5;
+  bool scan = false;    ///< for each of them, how a change of each residue's charges would shift it
+  int side_chains = 0;  ///< draws of other places of side chains, for each of them; 0 for none
   int side_chain_seed = 1;
   bool round_trip = false;     ///< also map back, which doubles the time, and measure the round-trip error
   bool trust_maps = false;     ///< given maps are taken as they are: what speaks against them does not refuse

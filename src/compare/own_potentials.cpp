@@ -32,8 +32,34 @@ bool has_both_differences(const ResidueRow& row) {
   return row.area_A2 >= kLeastOwnArea_A2 && std::isfinite(row.own_difference);
 }
 
-/// What slipped is judged by the slip and named there.
-bool has_slipped(const ResidueRow& row) { return row.mean_slip_A > kLargeSlip_A; }
+double error_of(const ResidueRow& row) { return std::fabs(row.mean_signed_difference - row.own_difference); }
+
+/// The error that half of the weight does not exceed.
+double median_error(const std::vector<ResidueRow>& rows) {
+  std::vector<std::pair<double, double>> errors;
+  double all = 0, below = 0;
+  for (const ResidueRow& row : rows) {
+    if (!has_both_differences(row)) continue;
+    errors.emplace_back(error_of(row), row.own_area_A2);
+    all += row.own_area_A2;
+  }
+  std::sort(errors.begin(), errors.end());
+  for (const auto& [error, weight] : errors) {
+    if ((below += weight) >= all / 2) return error;
+  }
+  return kNaN;
+}
+
+/// Root mean square of the potentials, weighted by area.
+double rms_potential(const std::vector<OwnPotential>& own) {
+  double area = 0, squares = 0;
+  for (const OwnPotential& at : own) {
+    if (!std::isfinite(at.mean)) continue;
+    area += at.area_A2;
+    squares += at.area_A2 * at.mean * at.mean;
+  }
+  return area > 0 ? std::sqrt(squares / area) : kNaN;
+}
 
 }  // namespace
 
@@ -79,15 +105,22 @@ double rms_own_difference(const std::vector<ResidueRow>& rows) {
   return area > 0 ? std::sqrt(squares / area) : kNaN;
 }
 
+std::vector<std::uint8_t> disagreeing_residues(const std::vector<ResidueRow>& rows,
+                                               const std::vector<OwnPotential>& source) {
+  // The median of a normal distribution's absolute values is 0.6745 of its deviation.
+  constexpr double kDeviationByMedian = 1.4826, kDeviations = 5, kLeastShare = 0.25;
+  const double limit =
+      std::max(kDeviations * kDeviationByMedian * median_error(rows), kLeastShare * rms_potential(source));
+  std::vector<std::uint8_t> disagrees(rows.size(), 0);
+  for (const ResidueRow& row : rows) disagrees[row.residue] = has_both_differences(row) && error_of(row) > limit;
+  return disagrees;
+}
+
 ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vector<OwnPotential>& source) {
   double area = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0, errors = 0, potentials = 0;
-  ResidueCheck check{kNaN, kNaN, kNaN, 0};
+  ResidueCheck check{kNaN, kNaN, kNaN, 0, 0};
   for (const ResidueRow& row : rows) {
     if (!has_both_differences(row)) continue;
-    if (has_slipped(row)) {
-      ++check.n_slipped;
-      continue;
-    }
     const double w = row.own_area_A2, a = row.own_difference, b = row.mean_signed_difference;
     area += w;
     x += w * a;
@@ -110,7 +143,7 @@ ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vect
 std::vector<const ResidueRow*> most_disagreeing(const std::vector<ResidueRow>& rows) {
   std::vector<const ResidueRow*> sorted;
   for (const ResidueRow& row : rows) {
-    if (has_both_differences(row) && !has_slipped(row)) sorted.push_back(&row);
+    if (has_both_differences(row)) sorted.push_back(&row);
   }
   const auto weighted_error = [](const ResidueRow* row) {
     const double error = row->mean_signed_difference - row->own_difference;

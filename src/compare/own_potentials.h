@@ -37,10 +37,16 @@ double rms_own_difference(const std::vector<ResidueRow>& rows);
 /// Fewer have no correlation.
 constexpr std::size_t kLeastComparedResidues = 5;
 
+/// [residue] nonzero where the mapped difference is off the difference on the residue's own surfaces by more than five
+/// standard deviations (from the median of all errors, which single residues do not move) and by more than 25 % of the
+/// potentials: other places of the residue were compared, such as those of a side chain that turned over.
+/// @param rows with own differences, of what is trusted so far  @param source from own_potentials()
+std::vector<std::uint8_t> disagreeing_residues(const std::vector<ResidueRow>& rows,
+                                               const std::vector<OwnPotential>& source);
+
 /// Pearson's correlation of the rows' mean_signed_difference with own_difference over the residues with at least 5 A^2
-/// of compared surface that have not slipped by more than kLargeSlip_A on average, and the size of their disagreement;
-/// NaN with fewer than kLeastComparedResidues. The weights are own_area_A2: the variance of a mean falls with its area,
-/// so that these are the inverse variances of the differences.
+/// of trusted surface, and the size of their disagreement; NaN with fewer than kLeastComparedResidues. The weights are
+/// own_area_A2: the variance of a mean falls with its area, so that these are the inverse variances of the differences.
 /// @param source from own_potentials()
 ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vector<OwnPotential>& source);
 

@@ -48,11 +48,7 @@ std::vector<double> weights_of(const ReadingRequest& request, const std::string&
   std::vector<double> weights(s.positions.size(), 0.0);
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     const Triangle& v = s.triangles[t];
-    bool counts = s.corrupt[t] == 0 && (s.unmatched.empty() || s.unmatched[t] == 0);
-    counts = counts && (outside.empty() || outside[t] == 0);
-    for (const std::uint32_t c : v)
-      counts = counts && std::isfinite(s.potential_source[c]) && std::isfinite(s.potential_target[c]);
-    if (!counts) continue;
+    if (s.why[t] != 0 || (!outside.empty() && outside[t] != 0)) continue;
     const double area = 0.5 * norm(cross(s.positions[v[1]] - s.positions[v[0]], s.positions[v[2]] - s.positions[v[0]]));
     for (const std::uint32_t c : v) weights[c] += area / 3;
   }
@@ -65,9 +61,10 @@ std::vector<double> weights_of(const ReadingRequest& request, const std::string&
   double all = 0;
   for (const double w : weights) all += w;
   if (!(all > 0))
-    throw InputError(option("causes", name) +
-                     ": no surface of it has a counterpart on the target, so that there is no difference to explain; "
-                     "take a part of the surface that is matched");
+    throw InputError(
+        option("causes", name) +
+        ": none of its surface is trusted, so that there is no difference to explain; take a part of the surface "
+        "that is");
   for (std::size_t v = 0; v < weights.size(); ++v) {
     weights[v] /= all;
     if (request.of == ReadingOf::kWhole && s.potential_target[v] < s.potential_source[v]) weights[v] = -weights[v];

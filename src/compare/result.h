@@ -14,6 +14,7 @@
 #include "base/types.h"
 #include "compare/start_from.h"
 #include "compare/surface_summary.h"
+#include "compare/trusted_area.h"
 #include "compare/uncovered_surface.h"
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
@@ -25,10 +26,11 @@ struct Causes;
 struct MapCheck;
 struct MapRecipe;
 
-/// Per-residue averages over the mapped surface, source residues. Area-weighted; NaN if a residue has no valid area.
+/// Per-residue averages over the trusted mapped surface, source residues. Area-weighted; NaN if a residue has none. The
+/// slip is that of all matched surface, since what slipped is not trusted.
 struct ResidueRow {
   std::size_t residue = 0;  ///< index into the source's residues
-  double area_A2 = 0;       ///< of valid mapped surface
+  double area_A2 = 0;       ///< of trusted mapped surface
   double mean_abs_difference = 0;
   double mean_signed_difference = 0;  ///< target - source
   double mean_source = 0;
@@ -36,10 +38,12 @@ struct ResidueRow {
   double sign_change_area_fraction = 0;
   double mean_displacement_A = 0;
   double mean_path_length_A = 0;
-  double mean_slip_A = 0;         ///< NaN if no atom of the residue has a partner
-  double slip_area_fraction = 0;  ///< farther than kLargeSlip_A
-  double own_difference = 0;      ///< of the residue's potentials on its own surfaces; see set_own_differences()
-  double own_area_A2 = 0;         ///< of these surfaces
+  double mean_slip_A = 0;            ///< NaN if no atom of the residue has a partner
+  double slip_area_fraction = 0;     ///< farther than kLargeSlip_A
+  double own_difference = 0;         ///< of the residue's potentials on its own surfaces; see set_own_differences()
+  double own_area_A2 = 0;            ///< of these surfaces
+  double matched_area_A2 = 0;        ///< of matched mapped surface that is not corrupt
+  double trusted_area_fraction = 0;  ///< of its surface on the source; NaN if it has none
 };
 
 /// Slip beyond these is medium, and large: a side chain's width, and the distance between neighbouring residues.
@@ -58,7 +62,7 @@ struct ResidueCheck {
   double rms_error = 0;      ///< of the mapped differences, in the unit of the potential
   double rms_potential = 0;  ///< of the source's own potentials
   std::size_t n_residues = 0;
-  std::size_t n_slipped = 0;  ///< left out: they slipped, see slip_reasons()
+  std::size_t n_disagreeing = 0;  ///< residues left out: see disagreeing_residues()
 };
 
 /// Round-trip error: how far from its start a vertex ends after mapping to the target and back by a second mapping,
@@ -110,9 +114,11 @@ struct Certificate {
   bool zero_by_construction = false;
   double outside_maps = 0;  ///< fraction of the mapped area at vertices outside a map
   bool converged = false;
-  bool trustworthy = false;
-  std::vector<Message> reasons;          ///< why not trustworthy
-  std::vector<std::string> not_checked;  ///< names of the checks that were not made
+  TrustedArea trusted;
+  std::vector<std::string> untrusted_parts;  ///< by name, largest first
+  bool trustworthy = false;                  ///< on the trusted area; see verdict_of()
+  std::vector<Message> reasons;              ///< why not trustworthy
+  std::vector<std::string> not_checked;      ///< names of the checks that were not made
 };
 
 /// Per-vertex arrays of the mapped surface.
@@ -130,15 +136,18 @@ struct MappedSurface {
   std::vector<float> path_length;
   std::vector<float> slip;  ///< [vertex] Angstrom; NaN if unmatched or without partner; empty if no atoms pair
   std::vector<std::int32_t> residue;  ///< [vertex] index of the source residue, -1 for none
+  std::vector<std::int32_t>
+      target_residue;                 ///< [vertex] index of the target residue where it is mapped to, -1 for none
   std::vector<std::uint8_t> corrupt;  ///< [triangle]
   /// [triangle] nonzero if unmatched: the mapped positions there are meaningless; empty if all are matched.
   std::vector<std::uint8_t> unmatched;
+  std::vector<std::uint8_t> why;  ///< [triangle] Why it is not trusted, 0 where it is
 };
 
 /// The metrics at one distance outside the surfaces.
 struct OffsetMetrics {
   double offset_A = 0;
-  Metrics metrics;  ///< over valid triangles
+  Metrics metrics;  ///< over trusted triangles
   /// Vertices left out since they lie inside the source's, the target's surface there.
   std::size_t n_inside_source = 0, n_inside_target = 0;
   std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
@@ -185,10 +194,9 @@ struct CompareResult {
   std::vector<OffsetMetrics> by_offset;                           ///< [offset of the options]; empty without potentials
   std::shared_ptr<const MapRecipe> source_recipe, target_recipe;  ///< of potentials that were computed, otherwise null
   std::shared_ptr<const MapCheck> source_map_check, target_map_check;  ///< of given maps; null where not checked
-  Metrics metrics;                                                     ///< over valid triangles
+  Metrics metrics;                                                     ///< over trusted triangles
   Metrics metrics_all;                                                 ///< over all triangles with samples
-  Metrics metrics_without_slip;  ///< over valid triangles of a slip within kMediumSlip_A
-  std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
+  std::size_t n_outside_source_map = 0, n_outside_target_map = 0;      ///< vertices
   SurfaceSummary source_surface, target_surface;
   double area_mapped_A2 = 0;
   Certificate certificate;

@@ -263,12 +263,22 @@ constexpr std::pair<const char*, const char*> kUnits[] = {{"grid-spacing", "A"},
                                                           {"temperature", "K"},        {"region-within", "A"}};
 
 /// Beyond these nobody compares surfaces, and a computation lasts for days or ends in a lack of memory.
-constexpr SettingLimits kLimits[] = {
-    {"grid-spacing", 0.001, 20},    {"radius-scale", 0.01, 20},       {"isovalue", 1e-6, 1e6},
-    {"temperature", 1, 1e5},        {"region-within", 0, 1000},       {"max-step", 0.001, 1000},
-    {"max-edge", 0.25, 1000},       {"distance-threshold", 0, 1000},  {"gvf-weight", 1e-6, 1e6},
-    {"gvf-tolerance", 1e-12, 1000}, {"gvf-max-sweeps", 0, 1e6},       {"sigma", 1e-6, 1000},
-    {"max-iterations", 0, 1e6},     {"regularize-sigma", 1e-6, 1000}, {"regularize-max-iterations", 0, 1e6}};
+constexpr SettingLimits kLimits[] = {{"grid-spacing", 0.001, 20},
+                                     {"radius-scale", 0.01, 20},
+                                     {"isovalue", 1e-6, 1e6},
+                                     {"temperature", 1, 1e5},
+                                     {"require", 0, 1},
+                                     {"region-within", 0, 1000},
+                                     {"max-step", 0.001, 1000},
+                                     {"max-edge", 0.25, 1000},
+                                     {"distance-threshold", 0, 1000},
+                                     {"gvf-weight", 1e-6, 1e6},
+                                     {"gvf-tolerance", 1e-12, 1000},
+                                     {"gvf-max-sweeps", 0, 1e6},
+                                     {"sigma", 1e-6, 1000},
+                                     {"max-iterations", 0, 1e6},
+                                     {"regularize-sigma", 1e-6, 1000},
+                                     {"regularize-max-iterations", 0, 1e6}};
 
 std::vector<Setting> make_settings() {
   std::vector<Setting> all;
@@ -303,6 +313,10 @@ std::vector<Setting> make_settings() {
       "trust-maps", "Potentials", [](auto& o) -> auto& { return o.trust_maps; },
       "Take given maps as they are: maps that do not fit the molecules' charges, or two kinds of potential, give "
       "warnings and are not refused"));
+  all.push_back(number(
+      "require", "Verdict", kPositive, [](auto& o) -> auto& { return o.required_share; },
+      "Share of the source's surface, and of the target's, that has to be trusted, 0 to 1; with less a result is NOT "
+      "TRUSTWORTHY. Use 0.95 for an answer of yes or no"));
   add_surface_settings(all);
   add_mapping_settings(all);
   const std::size_t first = all.size();

@@ -63,13 +63,4 @@ SlipSummary summarize_slip(const MappedSurface& surface, const std::vector<doubl
   return summary;
 }
 
-std::vector<float> slipped_triangles(const MappedSurface& surface) {
-  std::vector<float> slipped;
-  for (const Triangle& v : surface.triangles) {
-    const float mean = (surface.slip[v[0]] + surface.slip[v[1]] + surface.slip[v[2]]) / 3;
-    slipped.push_back(mean <= static_cast<float>(kMediumSlip_A) ? 0.0F : 1.0F);
-  }
-  return slipped;
-}
-
 }  // namespace espdiff

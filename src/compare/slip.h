@@ -18,16 +18,14 @@ double share_outside(const MappedSurface& surface, const std::vector<double>& ar
 /// @param areas from matched_areas()
 SlipSummary summarize_slip(const MappedSurface& surface, const std::vector<double>& areas);
 
-/// [triangle] nonzero where the mean slip of the corners exceeds kMediumSlip_A or is not known.
-std::vector<float> slipped_triangles(const MappedSurface& surface);
-
-/// The limits of the area beyond kLargeSlip_A. Easy pairs (below 2 A RMSD) have at most 6 %; pairs whose differences by
-/// residue do not agree with the residues' own potentials have 10 % and more. Local motions leave less slip: of ten
-/// such pairs of ubiquitin, those whose differences do not agree have 5 % and more.
+/// A mapping that slips by more is tried again by local motions: limits of the area beyond kLargeSlip_A. Easy pairs
+/// (below 2 A RMSD) have at most 6 %; pairs whose differences by residue do not agree with the residues' own potentials
+/// have 10 % and more. Local motions leave less slip: of ten such pairs of ubiquitin, those whose differences do not
+/// agree have 5 % and more.
 constexpr double kMostSlippedArea = 0.08, kMostSlippedAreaOfLocalMotions = 0.04;
 
-/// Why the slip makes a result untrustworthy: over the whole area (the limit depends on CompareResult::domains_used),
-/// in a chain or rigid domain, at a ligand. Each reason names where.
+/// Which limits of the slip a mapping exceeds, so that it is tried again (choose_motions.h): over the whole area (the
+/// limit depends on CompareResult::domains_used), in a chain or rigid domain, at a ligand. Each names where.
 /// @param result with its residues' rows
 std::vector<Message> slip_reasons(const CompareResult& result, const Molecule& source);
 

@@ -28,10 +28,10 @@ struct Part {
 
   void add(const ResidueRow& row) {
     ++n_residues;
-    if (!(row.area_A2 > 0) || !std::isfinite(row.mean_slip_A)) return;
-    area += row.area_A2;
-    slip += row.area_A2 * row.mean_slip_A;
-    large += row.area_A2 * row.slip_area_fraction;
+    if (!(row.matched_area_A2 > 0) || !std::isfinite(row.mean_slip_A)) return;
+    area += row.matched_area_A2;
+    slip += row.matched_area_A2 * row.mean_slip_A;
+    large += row.matched_area_A2 * row.slip_area_fraction;
   }
 };
 
@@ -72,7 +72,7 @@ std::vector<Part> parts_of(const CompareResult& result, const Molecule& source, 
 std::vector<std::string> slipped_residues(const CompareResult& result, const Molecule& source) {
   std::vector<const ResidueRow*> rows;
   for (const ResidueRow& row : result.residues) {
-    if (row.area_A2 >= kLeastJudgedArea_A2 && row.mean_slip_A > kLargeSlip_A) rows.push_back(&row);
+    if (row.matched_area_A2 >= kLeastJudgedArea_A2 && row.mean_slip_A > kLargeSlip_A) rows.push_back(&row);
   }
   std::stable_sort(rows.begin(), rows.end(),
                    [](const ResidueRow* a, const ResidueRow* b) { return a->mean_slip_A > b->mean_slip_A; });

@@ -22,7 +22,6 @@
 #include "compare/mapping.h"
 #include "compare/options.h"
 #include "compare/paired_residues.h"
-#include "compare/residue_rows.h"
 #include "compare/result.h"
 #include "compare/sample_outside.h"
 #include "compare/side_maps.h"
@@ -136,19 +135,16 @@ struct TemplateMapping::Parts {
   }
 
   /// Where the vertices arrive, with their residues on the template.
-  void describe_mapped(const Mapping& mapping, MappedSurface& s) const {
+  void describe_mapped(const Mapping& mapping, const Surface& target, MappedSurface& s) const {
     Mesh mesh = engine.download_shape(mapping.mapped);
     s.triangles = std::move(mesh.triangles);
     for (const Vec3f& p : mesh.positions) s.positions.push_back(static_cast<Vec3d>(p));
     s.unmatched.assign(mapping.unmatched.begin(), mapping.unmatched.end());
+    s.corrupt.assign(s.triangles.size(), 0);  // removed
     s.residue = engine.vertex_residues(mapping.source, surface.atoms);
-  }
-
-  double same_residue(const CompareInput& frame, const Mapping& mapping, const Surface& target,
-                      const CompareResult& result) const {
-    return same_residue_share(result.surface, result.surface.residue,
-                              engine.vertex_residues(mapping.mapped, target.atoms),
-                              paired_residues(*source.molecule, *frame.molecule, result.pairing));
+    for (const Vec3f& p : engine.download_positions(mapping.source))
+      s.source_positions.push_back(static_cast<Vec3d>(p));
+    s.target_residue = engine.vertex_residues(mapping.mapped, target.atoms);
   }
 
   /// @param potential [vertex of the template] of the frame
@@ -184,21 +180,17 @@ struct TemplateMapping::Parts {
     return readings;
   }
 
-  /// The slip of the mapping, and of each residue. Displacements are not of interest here.
+  /// The slip of the mapping.
   void measure_slip(const Mapping& mapping, const Surface& target, const std::vector<MovingAtom>& paths,
                     CompareResult& result) const {
     if (paths.empty()) return;
     MappedSurface& s = result.surface;
-    s.corrupt.assign(s.triangles.size(), 0);  // removed
     s.slip = engine.slip(mapping.source, mapping.mapped, target.mesh, paths);
     const std::vector<double> areas = matched_areas(s);
     for (std::size_t v = 0; v < areas.size(); ++v) {
       if (areas[v] <= 0) s.slip[v] = std::numeric_limits<float>::quiet_NaN();
     }
     result.certificate.slip = summarize_slip(s, areas);
-    s.displacement.assign(s.positions.size(), 0);
-    s.path_length.assign(s.positions.size(), 0);
-    result.residues = residue_rows(s, source.molecule->residues.size(), false);
   }
 };
 
@@ -236,14 +228,18 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, bool check_slip, c
   find_matched_part(p.engine, mapping, target.atoms, target.mesh, p.isovalue());
   result.certificate = certify(p.engine, mapping, target.mesh);
   result.certificate.converged = true;
-  p.describe_mapped(mapping, result.surface);
-  result.certificate.same_residue_area_fraction = p.same_residue(frame, mapping, target, result);
+  p.describe_mapped(mapping, target, result.surface);
+  const std::vector<std::int32_t> target_of = paired_residues(*p.source.molecule, *frame.molecule, result.pairing);
+  MappedSurface& s = result.surface;
+  result.certificate.same_residue_area_fraction = same_residue_share(s, s.residue, s.target_residue, target_of);
   if (check_slip) p.measure_slip(mapping, target, paths, result);
   clock.lap("certificate");
-  out.potential = p.sample(made.map, frame, mapping, target, result.surface.triangles, result.certificate.outside_maps);
+  out.potential = p.sample(made.map, frame, mapping, target, s.triangles, result.certificate.outside_maps);
   if (!p.reading_weights.empty())
     out.readings = p.readings_of(frame, made, mapping, target, result.pairing, out.potential, progress);
-  judge(result, *p.source.molecule);
+  s.why = why_of_mapping(s, target_of);
+  result.certificate.trusted = sum_trusted(s, {}, result.certificate.unmatched_target);
+  judge(result, *p.source.molecule, p.options.required_share);
   out.unit = unit_of(frame);
   out.rmsd_A = result.rmsd_A;
   out.unmatched_template = result.certificate.unmatched_source;

@@ -124,6 +124,8 @@ RunRecord read_run_record(const std::string& vtp_path) {
     record.trustworthy = json.at("certificate").at("trustworthy");
     const Json& certificate = json.at("certificate");
     certificate.at("reasons").get_to(record.reasons);
+    if (const auto parts = certificate.find("untrusted_parts"); parts != certificate.end())
+      parts->get_to(record.untrusted_parts);
     record.verdict = certificate.value("verdict", record.trustworthy ? "TRUSTWORTHY" : "NOT TRUSTWORTHY");
     read_parts(json, record.parts);
     read_names(json, record);

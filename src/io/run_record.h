@@ -29,9 +29,10 @@ struct RunRecord {
   RigidTransform source_to_target;
   double temperature_K = 300;
   bool trustworthy = true;
-  std::vector<std::string> reasons;      ///< why it is not
-  std::string verdict;                   ///< in words: the certificate's own, or TRUSTWORTHY, NOT TRUSTWORTHY
-  std::string source_name, target_name;  ///< the structures' files without folders, as they were given
+  std::vector<std::string> reasons;          ///< why it is not
+  std::vector<std::string> untrusted_parts;  ///< the parts of the surface that are not, largest first
+  std::string verdict;                       ///< in words: the certificate's own, or TRUSTWORTHY, NOT TRUSTWORTHY
+  std::string source_name, target_name;      ///< the structures' files without folders, as they were given
   std::string method;
   std::map<std::string, std::vector<int>> parts;  ///< residues of "region" and of "patch NAME": indices of the source's
 };

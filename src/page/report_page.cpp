@@ -158,7 +158,10 @@ std::string report_page(const std::string& prefix, const std::string& title, con
   Json page = {{"title", title.empty() ? title_of(files) : title},
                {"states", "Source: " + name_of_input(files, "source") + ". Target: " + name_of_input(files, "target") +
                               ". Differences are target - source."}};
-  page["verdict"] = {{"trustworthy", verdict.trustworthy}, {"text", verdict.text}, {"reasons", verdict.reasons}};
+  page["verdict"] = {{"trustworthy", verdict.trustworthy},
+                     {"text", verdict.text},
+                     {"reasons", verdict.reasons},
+                     {"parts", verdict.parts}};
   page["warnings"] = verdict.warnings;
   page["numbers"] = numbers_of(files.record, files.unit);
   page["tables"] = cause_tables(files.record);

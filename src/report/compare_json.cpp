@@ -67,6 +67,8 @@ void add_verdict(Json& json, const Certificate& c) {
     if (c.zero_by_construction && (metric.flags & kRemovable) != 0) json["zero_by_construction"].push_back(metric.name);
   }
   json["converged"] = c.converged;
+  json["verdict"] = verdict_of(c);
+  json["untrusted_parts"] = c.untrusted_parts;
   json["trustworthy"] = c.trustworthy;
   json["reasons"] = Json::array();
   for (const Message& reason : c.reasons) json["reasons"].push_back(reason.plain());
@@ -77,15 +79,6 @@ Json metrics_all_triangles(const CompareResult& result) {
   Json json;
   for (const Metric& metric : metrics()) {
     if (metric.source.of_area != nullptr) json[metric.name] = json_number(value_over_all_triangles(metric, result));
-  }
-  return json;
-}
-
-/// The metrics over the area whose slip is at most 2 A.
-Json metrics_without_slip(const CompareResult& result) {
-  Json json;
-  for (const Metric& metric : metrics()) {
-    if (metric.source.of_area != nullptr) json[metric.name] = json_number(value_without_slip(metric, result));
   }
   return json;
 }
@@ -247,10 +240,12 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   json["given_maps"] = given_maps_json(result);
   add_metrics(json, result);
   json["by_offset"] = offsets(result);
-  json["metrics_without_slip"] = metrics_without_slip(result);
   json["warnings"] = warnings(result);
   add_verdict(json["certificate"], result.certificate);
   json["metrics_all_triangles"] = metrics_all_triangles(result);
+  const WholeSurface whole = whole_surface(result);
+  json["whole_surface"] = {
+      {"mean_abs_difference", {{"estimate", json_number(whole.estimate)}, {"at_most", json_number(whole.at_most)}}}};
   json["region"] = result.region == nullptr ? Json(nullptr) : part_json(*result.region);
   json["fixed_patches"] = Json::object();
   for (const PatchResult& patch : result.patches) {

@@ -125,8 +125,7 @@ void print_section(std::ostream& out, const CompareResult& result, MetricSection
     if (metric.section != section || !metric.has_result()) continue;
     std::vector<std::string> values = {formatted(metric, value_of(metric, result))};
     if (result.has_potential && metric.source.of_area != nullptr)
-      values.insert(values.end(), {formatted(metric, value_over_all_triangles(metric, result)),
-                                   formatted(metric, value_without_slip(metric, result))});
+      values.push_back(formatted(metric, value_over_all_triangles(metric, result)));
     row(out, metric.label, unit_of(metric, to_string(result.unit)), values);
   }
 }
@@ -196,10 +195,15 @@ void print_metrics(std::ostream& out, const CompareResult& result) {
     print_given_maps(out, result);
     const bool vacuum = potential_unit_text(result) != to_string(result.unit);
     heading(out, std::string("Potential") + (vacuum ? kInVacuum : "") + " (target - source)",
-            {"valid area", "all area", "without slip"});
+            {"trusted area", "all area"});
     print_section(out, result, MetricSection::kPotential);
+    const WholeSurface whole = whole_surface(result);
+    const Metric& mean = *find_metric_or_null("mean_abs_difference");
+    line(out, "Mean abs. of the whole surface",
+         "about " + formatted(mean, whole.estimate) + ", at most " + formatted(mean, whole.at_most) + " " +
+             to_string(result.unit));
   } else {
-    heading(out, "Shape (no potentials)", {"valid area"});
+    heading(out, "Shape (no potentials)", {"trusted area"});
     if (!result.shapes_because.empty()) line(out, "Because", result.shapes_because);
   }
   print_section(out, result, MetricSection::kShape);
@@ -297,7 +301,7 @@ void print_certificate(std::ostream& out, const CompareResult& result) {
 /// The metrics, unmatched area and verdict of a region or patch.
 void print_part(std::ostream& out, const std::string& title, const CompareResult& part,
                 const OptionSpelling& spelling) {
-  heading(out, title + ": " + counted(part.residues.size(), "residue") + " of the source", {"valid area"});
+  heading(out, title + ": " + counted(part.residues.size(), "residue") + " of the source", {"trusted area"});
   for (const MetricSection section : {MetricSection::kPotential, MetricSection::kShape}) {
     if (section == MetricSection::kPotential && !part.has_potential) continue;
     for (const Metric& metric : metrics()) {
@@ -308,7 +312,7 @@ void print_part(std::ostream& out, const std::string& title, const CompareResult
   row(out, "Unmatched area", "",
       {"source " + share_of(part.certificate.unmatched_source),
        "target " + share_of(part.certificate.unmatched_target)});
-  line(out, "Verdict", part.certificate.trustworthy ? "trustworthy" : "not trustworthy");
+  line(out, "Verdict", verdict_of(part.certificate));
   for (const Message& reason : part.certificate.reasons) item(out, reason.spelled(spelling), 4);
 }
 
@@ -341,12 +345,16 @@ std::string unknown_signs(const CompareResult& result) {
 void print_verdict(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
   const Certificate& c = result.certificate;
   out << '\n';
-  if (c.trustworthy) {
-    out << "TRUSTWORTHY: the mapping is within every limit that was checked" << unknown_signs(result) << '\n';
-  } else {
-    out << "NOT TRUSTWORTHY:\n";
+  out << verdict_of(c) << (c.trustworthy ? ": " : ":\n");
+  if (!c.trustworthy) {
     for (const Message& reason : c.reasons) item(out, reason.spelled(spelling));
+    return;
   }
+  out << "the numbers rest on " << share_of(c.trusted.source) << " of the source's surface and "
+      << share_of(c.trusted.target) << " of the target's" << unknown_signs(result) << '\n';
+  if (c.trusted.share() >= kWholeShare || c.untrusted_parts.empty()) return;
+  out << "Not trusted:\n";
+  for (const std::string& part : c.untrusted_parts) item(out, part);
 }
 
 }  // namespace
@@ -373,8 +381,8 @@ void print_verdict_line(std::ostream& out, const CompareResult& result) {
   const Metric& metric = *find_metric_or_null(result.has_potential ? "mean_abs_difference" : "mean_displacement_A");
   std::string label = metric.label;
   label[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(label[0])));
-  out << (result.certificate.trustworthy ? "TRUSTWORTHY: " : "NOT TRUSTWORTHY: ") << label << ' '
-      << formatted(metric, value_of(metric, result)) << ' ' << unit_of(metric, to_string(result.unit)) << '\n';
+  out << verdict_of(result.certificate) << ": " << label << ' ' << formatted(metric, value_of(metric, result)) << ' '
+      << unit_of(metric, to_string(result.unit)) << '\n';
 }
 
 }  // namespace espdiff

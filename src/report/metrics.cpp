@@ -52,6 +52,13 @@ double of_slip(const CompareResult& result) {
   return result.certificate.slip ? (*result.certificate.slip).*Member : kNaN;
 }
 
+double trusted_of_source(const CompareResult& result) { return result.certificate.trusted.source; }
+double trusted_of_target(const CompareResult& result) { return result.certificate.trusted.target; }
+template <Why Reason>
+double not_trusted(const CompareResult& result) {
+  return result.certificate.trusted.by_why[static_cast<std::size_t>(Reason)];
+}
+
 double rmsd(const CompareResult& result) { return result.rmsd_A; }
 double source_area(const CompareResult& result) { return result.source_surface.area_A2; }
 double target_area(const CompareResult& result) { return result.target_surface.area_A2; }
@@ -79,7 +86,9 @@ std::vector<Metric> make_metrics() {
        kNowhere,
        "Area of the mapped surface on which the numbers rest",
        {&Metrics::area_A2, &ResidueRow::area_A2},
-       "/area_A2/valid"},
+       "/area_A2/trusted"},
+      {"trusted_area_fraction", "Trusted area", S::kShape, U::kFraction, kNowhere,
+       "Share of the residue's surface on the source that is trusted", &ResidueRow::trusted_area_fraction},
       {"mean_abs_difference",
        "Mean absolute difference",
        S::kPotential,
@@ -145,6 +154,33 @@ std::vector<Metric> make_metrics() {
       {"area_mapped_A2", "Area of the mapped surface", S::kSurface, U::kSquareAngstrom, kBoth,
        "Area of the source's surface after it was mapped onto the target", mapped_area, "/area_A2/mapped", "Area",
        "mapped"},
+      {"trusted_source", "Trusted area, source", S::kCertificate, U::kFraction, kBoth,
+       "Share of the source's surface on which the numbers rest", trusted_of_source,
+       "/certificate/trusted_area_fraction/source", "Trusted area", "source"},
+      {"trusted_target", "Trusted area, target", S::kCertificate, U::kFraction, kBoth,
+       "Share of the target's surface on which the numbers rest", trusted_of_target,
+       "/certificate/trusted_area_fraction/target", "Trusted area", "target"},
+      {"untrusted_unmatched", "Not trusted, unmatched", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the source's surface without a place on the target", not_trusted<Why::kUnmatched>,
+       "/certificate/not_trusted/unmatched", "Not trusted of the source", "unmatched"},
+      {"untrusted_corrupt", "Not trusted, corrupt", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the source's surface whose place is not on the target's surface", not_trusted<Why::kCorrupt>,
+       "/certificate/not_trusted/corrupt", "Not trusted of the source", "corrupt"},
+      {"untrusted_unpaired", "Not trusted, unpaired", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the source's surface whose residue has no partner", not_trusted<Why::kUnpaired>,
+       "/certificate/not_trusted/unpaired", "Not trusted of the source", "unpaired"},
+      {"untrusted_slipped", "Not trusted, slipped", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the source's surface that slipped by more than 3 A", not_trusted<Why::kSlipped>,
+       "/certificate/not_trusted/slipped", "  or for its place", "slipped"},
+      {"untrusted_other_residue", "Not trusted, on another residue", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the source's surface that lies on another residue than the paired one",
+       not_trusted<Why::kOtherResidue>, "/certificate/not_trusted/other_residue", "  or for its place", "off residue"},
+      {"untrusted_disagrees", "Not trusted, disagrees", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the source's surface of residues whose difference is not that of their own surfaces",
+       not_trusted<Why::kDisagrees>, "/certificate/not_trusted/disagrees", "  or for its potential", "disagrees"},
+      {"untrusted_no_potential", "Not trusted, without a potential", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the source's surface outside the maps", not_trusted<Why::kNoPotential>,
+       "/certificate/not_trusted/no_potential", "  or for its potential", "missing"},
       {"corrupt_area_fraction", "Corrupt area", S::kCertificate, U::kFraction, kBoth | kRemovable,
        "Share of the mapped area that does not lie on the target's surface; the morph removes it",
        of_certificate<&C::corrupt_area_fraction>, "/certificate/corrupt_area_fraction"},
@@ -338,11 +374,6 @@ double value_of(const Metric& metric, const CompareResult& result) {
 double value_over_all_triangles(const Metric& metric, const CompareResult& result) {
   if (metric.source.of_area == nullptr || !result.has_potential) return kNaN;
   return result.metrics_all.*metric.source.of_area;
-}
-
-double value_without_slip(const Metric& metric, const CompareResult& result) {
-  if (metric.source.of_area == nullptr || !result.has_potential || !result.certificate.slip) return kNaN;
-  return result.metrics_without_slip.*metric.source.of_area;
 }
 
 double value_of(const Metric& metric, const CompareResult& result, const ResidueRow& row) {

@@ -31,7 +31,7 @@ struct MetricSource {
   using OfResult = double (*)(const CompareResult&);
 
   MetricSource(OfResult result) : of_result(result) {}
-  /// Over the area that is counted; the printed table and OUT.json also show it over all triangles.
+  /// Over the trusted area; the printed table and OUT.json also show it over all triangles.
   MetricSource(double Metrics::*area, double ResidueRow::*residue = nullptr) : of_area(area), of_residue(residue) {}
   MetricSource(double ResidueRow::*residue) : of_residue(residue) {}
 
@@ -77,10 +77,8 @@ const Metric* find_metric_or_null(const std::string& name);
 /// The number for the whole comparison, or for one of its parts; NaN where there is none. The metric
 /// has_result().
 double value_of(const Metric& metric, const CompareResult& result);
-/// Over all triangles with samples, corrupt ones included; NaN where there is none.
+/// Over all triangles with samples, trusted or not; NaN where there is none.
 double value_over_all_triangles(const Metric& metric, const CompareResult& result);
-/// Over the counted area whose slip is at most 2 A; NaN where there is none.
-double value_without_slip(const Metric& metric, const CompareResult& result);
 /// The number for one residue; NaN where it has no surface that is counted. The metric has_residues().
 double value_of(const Metric& metric, const CompareResult& result, const ResidueRow& row);
 /// Whether the certificate says that this was not checked.
@@ -97,7 +95,7 @@ ShownUnit shown_unit(const Metric& metric, const std::string& potential_unit);
 /// A value with its unit as the printed tables write it: "1.234", "12.3 %", "-" for none.
 std::string formatted(const Metric& metric, double value);
 
-/// The metrics over the counted surface. Without potentials, area, displacement and path length come from the
+/// The metrics over the trusted surface. Without potentials, area, displacement and path length come from the
 /// residues' rows, and the others are NaN.
 Metrics counted_metrics(const CompareResult& result);
 

@@ -159,11 +159,13 @@ std::vector<Vec3d> superposed_source(const PairFiles& files) {
 
 CountedTriangles counted_triangles(const VtpContent& surface) {
   CountedTriangles triangles;
+  const VtpNumbers* const why = find_array(surface.cell_arrays, "why");
   const VtpNumbers* const corrupt = find_array(surface.cell_arrays, "corrupt");
   const VtpNumbers* const unmatched = find_array(surface.cell_arrays, "no_counterpart");
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const bool is_counted =
-        (corrupt == nullptr || corrupt->values[t] == 0) && (unmatched == nullptr || unmatched->values[t] == 0);
+    const bool is_counted = (why == nullptr || why->values[t] == 0) &&
+                            (corrupt == nullptr || corrupt->values[t] == 0) &&
+                            (unmatched == nullptr || unmatched->values[t] == 0);
     (is_counted ? triangles.counted : triangles.rest).push_back(surface.triangles[t]);
   }
   return triangles;
@@ -198,10 +200,9 @@ Verdict verdict_of(const PairFiles& files) {
   Verdict verdict;
   verdict.trustworthy = certificate.at("trustworthy").get<bool>();
   verdict.text = text_of(certificate, "verdict");
-  if (verdict.text.empty())
-    verdict.text =
-        verdict.trustworthy ? "TRUSTWORTHY: the mapping is within every limit that was checked" : "NOT TRUSTWORTHY";
+  if (verdict.text.empty()) verdict.text = verdict.trustworthy ? "TRUSTWORTHY" : "NOT TRUSTWORTHY";
   verdict.reasons = texts_of(certificate, "reasons");
+  verdict.parts = texts_of(certificate, "untrusted_parts");
   verdict.warnings = texts_of(files.record, "warnings");
   return verdict;
 }

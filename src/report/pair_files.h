@@ -44,7 +44,7 @@ std::vector<std::int32_t> residues_of_vertices(const PairFiles& files);
 /// @throws FormatError (the file has no such array)
 std::vector<Vec3d> superposed_source(const PairFiles& files);
 
-/// The counted triangles, and those that are corrupt or have no counterpart.
+/// The trusted triangles, and the others.
 struct CountedTriangles {
   std::vector<Triangle> counted, rest;
 };
@@ -63,11 +63,11 @@ std::string name_of_input(const PairFiles& files, const std::string& role);
 /// "mutant.pqr against wild.pqr"
 std::string title_of(const PairFiles& files);
 
-/// The verdict in one line, in the words of the record, and its reasons.
+/// The verdict in one line, in the words of the record, its reasons, and the parts that are not trusted.
 struct Verdict {
   bool trustworthy;
   std::string text;
-  std::vector<std::string> reasons, warnings;
+  std::vector<std::string> reasons, parts, warnings;
 };
 Verdict verdict_of(const PairFiles& files);
 

@@ -79,7 +79,8 @@ SurfaceArrays::SurfaceArrays(const Molecule& source, const CompareResult& result
                        {"normal", s.normals},
                        {"source_normal", s.source_normals},
                        {"residue_number", derived.residue_number},
-                       {"residue_index", s.residue}};
+                       {"residue_index", s.residue},
+                       {"target_residue_index", s.target_residue}};
   file.active_normals = "normal";
   file.active_scalars = "displacement";
   if (result.has_potential) {
@@ -93,7 +94,8 @@ SurfaceArrays::SurfaceArrays(const Molecule& source, const CompareResult& result
     if (!label.empty()) file.texts.emplace_back("potential", label);
   }
   file.cell_arrays = {{"corrupt", s.corrupt},
-                      {"no_counterpart", s.unmatched.empty() ? derived_->matched_everywhere : s.unmatched}};
+                      {"no_counterpart", s.unmatched.empty() ? derived_->matched_everywhere : s.unmatched},
+                      {"why", s.why}};
   file.texts.emplace_back("length_unit", "Angstrom");
   file.texts.emplace_back("written_by", "espdiff " + version);
 }

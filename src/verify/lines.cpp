@@ -31,6 +31,8 @@ constexpr struct {
                       {"warnings", kWords},
                       {"certificate/reasons", kWords},
                       {"certificate/not_checked", kWords},
+                      {"certificate/untrusted_parts", kWords},
+                      {"whole_surface", "an estimate from the residues' own surfaces"},
                       {"certificate/zero_by_construction", kWords},
                       {"certificate/round_trip", "the mapping back is in no file"},
                       {"certificate/converged", "the iteration is in no file"},

@@ -37,10 +37,10 @@ void check_near(const std::string& path, const std::vector<Vec3d>& positions) {
 }
 
 /// Residues are indices, or negative for none.
-void check_residues(const std::string& path, const std::vector<double>& residue) {
+void check_residues(const std::string& path, const std::vector<double>& residue, const char* name) {
   for (const double r : residue) {
     if (r == std::floor(r) && r >= -1 && r < std::numeric_limits<std::int32_t>::max()) continue;
-    throw InputError(path + ": the array \"residue_index\" has entries that are not indices; compare again");
+    throw InputError(path + ": the array \"" + name + "\" has entries that are not indices; compare again");
   }
 }
 
@@ -67,9 +67,11 @@ MappedFile::MappedFile(const std::string& path) {
   path_length = of_points("path_length");
   slip = of_points("slip");
   residue = of_points("residue_index");
+  target_residue = of_points("target_residue_index");
   check_near(path, source_positions);
   check_near(path, content.positions);
-  check_residues(path, residue);
+  check_residues(path, residue, "residue_index");
+  check_residues(path, target_residue, "target_residue_index");
   if (find_array(content.point_arrays, "potential_source") != nullptr) {
     potential_source = of_points("potential_source");
     potential_target = of_points("potential_target");
@@ -84,6 +86,12 @@ MappedFile::MappedFile(const std::string& path) {
   for (const double flag : array(path, content.cell_arrays, "no_counterpart", 1)) is_matched.push_back(flag == 0);
   const std::vector<double> corrupt = array(path, content.cell_arrays, "corrupt", 1);
   for (std::size_t t = 0; t < corrupt.size(); ++t) is_valid.push_back(is_matched[t] && corrupt[t] == 0);
+  why = array(path, content.cell_arrays, "why", 1);
+  for (const double reason : why) {
+    if (!(reason >= 0 && reason < static_cast<double>(kNumberOfReasons)))
+      throw InputError(path + ": the array \"why\" has entries that are no reasons; compare again");
+    is_trusted.push_back(reason == 0);
+  }
   positions = std::move(content.positions);
   triangles = std::move(content.triangles);
   if (std::find(is_matched.begin(), is_matched.end(), true) == is_matched.end())
@@ -116,6 +124,13 @@ std::vector<bool> MappedFile::with_potentials(std::vector<bool> counts) const {
       counts[t] = counts[t] && std::isfinite(potential_source[c]) && std::isfinite(potential_target[c]);
   }
   return counts;
+}
+
+int column(const CsvTable& table, const std::string& name) {
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    if (table.columns[k] == name || table.columns[k].rfind(name + " [", 0) == 0) return static_cast<int>(k);
+  }
+  return -1;
 }
 
 double weighted_quantile(std::vector<std::pair<double, double>> weighted, double share) {

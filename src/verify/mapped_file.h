@@ -1,6 +1,8 @@
 // mapped_file.h: the mapped surface of OUT.vtp, and what follows from it and OUT.residues.csv alone.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,9 @@ namespace espdiff {
 
 class GaussianAtoms;
 
+/// Of the array `why`: 0 for trusted, and the reasons.
+constexpr int kNumberOfReasons = 8;
+
 /// OUT.vtp with the arrays that a comparison writes.
 struct MappedFile {
   std::vector<Vec3d> positions, source_positions;  ///< [vertex]
@@ -22,7 +27,10 @@ struct MappedFile {
   std::vector<double> potential_difference, sign_change;   ///< [vertex]; empty without potentials
   std::vector<double> residue_number;                      ///< [vertex]
   std::vector<Vec3d> normals, source_normals;              ///< [vertex]
+  std::vector<double> target_residue;                      ///< [vertex] index where it is mapped to, -1 for none
   std::vector<bool> is_matched, is_valid;                  ///< [triangle] matched; and not corrupt
+  std::vector<double> why;                                 ///< [triangle] 0 where it is trusted
+  std::vector<bool> is_trusted;                            ///< [triangle]
   std::vector<std::pair<std::string, std::string>> texts;  ///< of the whole file: name, text
   std::vector<std::string> array_names;                    ///< all, also of arrays that are not known here
 
@@ -38,15 +46,22 @@ struct MappedFile {
   std::vector<bool> with_potentials(std::vector<bool> counts) const;
 };
 
+/// The column that begins with this name, whatever its unit; -1 if there is none.
+int column(const CsvTable& table, const std::string& name);
+
 /// The value below which this share of the weight lies; NaN without weight.
 double weighted_quantile(std::vector<std::pair<double, double>> weighted, double share);
 
-/// Areas, metrics (valid, all, without slip), the quantiles of slip, distortion and irregularity.
+/// Areas, metrics (trusted, all), the trusted shares, the quantiles of slip, distortion and irregularity.
 void add_mapped_lines(const MappedFile& file, const ResultRecord& record, Lines& lines);
 
 /// The residue table against the vertices, and the correlation of its columns.
 void add_residue_lines(const MappedFile& file, const ResultRecord& record, const CsvTable& table, Lines& lines);
 
+/// Where the result is trusted, by reasons found again.
+/// @param partner_of by source residue; empty where the atoms were not read
+void add_trust_lines(const MappedFile& file, const CsvTable& table,
+                     const std::map<std::int32_t, std::int32_t>& partner_of, Lines& lines);
 /// The causes against OUT.causes.csv, where there are any.
 void add_cause_lines(const std::string& prefix, const ResultRecord& record, Lines& lines);
 

@@ -53,6 +53,25 @@ void add_areas(const MappedFile& file, Lines& lines) {
   }
 }
 
+constexpr const char* kReasons[kNumberOfReasons] = {"trusted", "unmatched",     "corrupt",   "unpaired",
+                                                    "slipped", "other_residue", "disagrees", "no_potential"};
+
+/// The shares of both surfaces that are trusted, and those of the source that are not.
+void add_trusted_shares(const MappedFile& file, const ResultRecord& record, Lines& lines) {
+  double by_reason[kNumberOfReasons] = {}, all = 0, matched = 0, trusted = 0;
+  for (std::size_t t = 0; t < file.triangles.size(); ++t) {
+    by_reason[static_cast<std::size_t>(file.why[t])] += file.source_area(t);
+    all += file.source_area(t);
+    matched += file.is_matched[t] ? file.area(t) : 0;
+    trusted += file.is_trusted[t] ? file.area(t) : 0;
+  }
+  const double unmatched = record.number("certificate/no_counterpart_area_fraction/target").value_or(kNaN);
+  lines.add("certificate/trusted_area_fraction/source", by_reason[0] / all, 1e-5);
+  lines.add("certificate/trusted_area_fraction/target", (1 - unmatched) * trusted / matched, 1e-5);
+  for (int k = 1; k < kNumberOfReasons; ++k)
+    lines.add(std::string("certificate/not_trusted/") + kReasons[k], by_reason[k] / all, 1e-5);
+}
+
 /// Mean distance of the matched vertices from the mean of their neighbours, where triangles surround them: each edge
 /// from there belongs to two.
 double irregularity(const MappedFile& file) {
@@ -137,16 +156,6 @@ void add_slip(const MappedFile& file, Lines& lines) {
   lines.add(at + "unpaired_area_fraction", 1 - known / all, 1e-6);
 }
 
-/// Triangles whose mean slip is at most 2 A.
-std::vector<bool> without_slip(const MappedFile& file) {
-  std::vector<bool> counts = file.with_potentials(file.is_valid);
-  for (std::size_t t = 0; t < counts.size(); ++t) {
-    const Triangle& v = file.triangles[t];
-    counts[t] = counts[t] && (file.slip[v[0]] + file.slip[v[1]] + file.slip[v[2]]) / 3 <= kMediumSlip_A;
-  }
-  return counts;
-}
-
 void add_outside_maps(const MappedFile& file, Lines& lines) {
   const std::vector<double> weight = file.weights(file.is_valid);
   double all = 0, outside = 0;
@@ -155,14 +164,6 @@ void add_outside_maps(const MappedFile& file, Lines& lines) {
     if (!std::isfinite(file.potential_source[v]) || !std::isfinite(file.potential_target[v])) outside += weight[v];
   }
   lines.add("certificate/outside_maps_area_fraction", outside / all, 1e-6);
-}
-
-/// The column that begins with this name, whatever its unit; -1 if there is none.
-int column(const CsvTable& table, const std::string& name) {
-  for (std::size_t k = 0; k < table.columns.size(); ++k) {
-    if (table.columns[k] == name || table.columns[k].rfind(name + " [", 0) == 0) return static_cast<int>(k);
-  }
-  return -1;
 }
 
 /// Largest deviation of a column from the means at the vertices, in shares of the column's largest value.
@@ -205,17 +206,16 @@ double correlation(const CsvTable& table, int area, int weight, int own, int map
 
 void add_mapped_lines(const MappedFile& file, const ResultRecord& record, Lines& lines) {
   add_areas(file, lines);
+  add_trusted_shares(file, record, lines);
   lines.add("certificate/irregularity_A", irregularity(file), 1e-4);
-  add_metrics(file, file.with_potentials(file.is_valid), "", "area_A2/valid", lines);
+  add_metrics(file, file.is_trusted, "", "area_A2/trusted", lines);
   add_slip(file, lines);
   if (file.potential_source.empty()) return;
   add_metrics(file, file.with_potentials(file.is_matched), "metrics_all_triangles/", "area_A2", lines);
-  if (record.size("metrics_without_slip") > 0)
-    add_metrics(file, without_slip(file), "metrics_without_slip/", "area_A2", lines);
   if (record.size("by_offset") > 0) {
     const std::string offsets = record.text("options/offset");
     lines.add("by_offset/0/offset_A", std::strtod(offsets.c_str(), nullptr), 0);
-    add_metrics(file, file.with_potentials(file.is_valid), "by_offset/0/", "area_A2", lines);
+    add_metrics(file, file.is_trusted, "by_offset/0/", "area_A2", lines);
   }
   add_outside_maps(file, lines);
 }
@@ -224,32 +224,32 @@ namespace {
 
 /// Sums over the vertices of each residue.
 struct ResidueSums {
-  std::vector<double> area, slip_area;
+  std::vector<double> area, slip_area, own_area, trusted;
   std::map<std::string, std::vector<double>> of;  ///< by the name of the column, times area
 };
 
 /// @returns false if a vertex has a residue that the table lacks
 bool sum_residues(const MappedFile& file, std::size_t n, ResidueSums& sums) {
-  const std::vector<double> weight = file.weights(file.with_potentials(file.is_valid));
-  sums.area.assign(n, 0);
-  sums.slip_area.assign(n, 0);
+  const std::vector<double> weight = file.weights(file.is_trusted), matched = file.weights(file.is_valid);
+  for (std::vector<double>* sum : {&sums.area, &sums.slip_area, &sums.own_area, &sums.trusted}) sum->assign(n, 0);
   for (const char* name : {"mean_displacement", "mean_path_length", "mean_slip", "slip_area_fraction"})
     sums.of[name].assign(n, 0);
   for (const char* name :
        {"mean_abs_difference", "mean_signed_difference", "mean_source", "mean_target", "sign_change_area_fraction"})
     sums.of[name].assign(n, 0);
   for (std::size_t v = 0; v < weight.size(); ++v) {
-    if (!(file.residue[v] >= 0) || weight[v] <= 0) continue;
+    if (!(file.residue[v] >= 0)) continue;
     if (file.residue[v] >= static_cast<double>(n)) return false;
     const auto r = static_cast<std::size_t>(file.residue[v]);
+    if (std::isfinite(file.slip[v])) {
+      sums.slip_area[r] += matched[v];
+      sums.of["mean_slip"][r] += matched[v] * file.slip[v];
+      sums.of["slip_area_fraction"][r] += file.slip[v] > kLargeSlip_A ? matched[v] : 0;
+    }
+    if (weight[v] <= 0) continue;
     sums.area[r] += weight[v];
     sums.of["mean_displacement"][r] += weight[v] * file.displacement[v];
     sums.of["mean_path_length"][r] += weight[v] * file.path_length[v];
-    if (std::isfinite(file.slip[v])) {
-      sums.slip_area[r] += weight[v];
-      sums.of["mean_slip"][r] += weight[v] * file.slip[v];
-      sums.of["slip_area_fraction"][r] += file.slip[v] > kLargeSlip_A ? weight[v] : 0;
-    }
     if (file.potential_source.empty()) continue;
     const double a = file.potential_source[v], b = file.potential_target[v];
     sums.of["mean_abs_difference"][r] += weight[v] * std::fabs(b - a);
@@ -257,6 +257,13 @@ bool sum_residues(const MappedFile& file, std::size_t n, ResidueSums& sums) {
     sums.of["mean_source"][r] += weight[v] * a;
     sums.of["mean_target"][r] += weight[v] * b;
     sums.of["sign_change_area_fraction"][r] += a * b < 0 ? weight[v] : 0;
+  }
+  for (std::size_t t = 0; t < file.triangles.size(); ++t) {
+    for (const std::uint32_t v : file.triangles[t]) {
+      if (!(file.residue[v] >= 0)) continue;
+      sums.own_area[static_cast<std::size_t>(file.residue[v])] += file.source_area(t) / 3;
+      sums.trusted[static_cast<std::size_t>(file.residue[v])] += file.is_trusted[t] ? file.source_area(t) / 3 : 0;
+    }
   }
   return true;
 }
@@ -292,6 +299,9 @@ void add_residue_lines(const MappedFile& file, const ResultRecord& record, const
     lines.add_deviation("OUT.residues.csv, " + name, deviation(table, at, expected), 1e-4);
   };
   check("area", sums.area);
+  for (std::size_t r = 0; r < n; ++r)
+    sums.trusted[r] = sums.own_area[r] > 0 ? sums.trusted[r] / sums.own_area[r] : kNaN;
+  check("trusted_area_fraction", sums.trusted);
   for (auto& [name, values] : sums.of) {
     const bool of_shape = name == "mean_displacement" || name == "mean_path_length";
     const bool of_slip = name == "mean_slip" || name == "slip_area_fraction";

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "io/structure_file.h"
 #include "verify/lines.h"
 #include "verify/map_deviation.h"
@@ -20,7 +21,7 @@
 namespace espdiff {
 namespace {
 
-constexpr double kShareTolerance = 0.01;
+constexpr double kShareTolerance = 0.01, kWholeShare = 0.95;
 /// The engine's surface lies on a lattice, is projected and regularized; ours on half of its spacing h and is not. A
 /// chord of length h on a sphere of radius R stays h^2 / (8 R) below it and loses h^2 / (24 R^2) of its length, so
 /// distances and areas differ by what grows with h^2: at 1 A 0.01 A and up to 0.5 % for a peptide.
@@ -86,6 +87,7 @@ class Verifier {
       surfaces(source, target);
       pairs(source, target);
     } else {
+      add_trust_lines(file_, residues_, {}, lines_);
       for (const char* name : {"certificate", "rmsd_A", "n_paired_atoms", "area_A2", "superposition", "radii_origin",
                                "OUT.vtp", "OUT.residues.csv"})
         lines_.explain(name, why);
@@ -104,6 +106,13 @@ class Verifier {
     const bool trustworthy = record_.flag("certificate/trustworthy");
     lines_.add_deviation("certificate/trustworthy, against its reasons", trustworthy == (n_reasons == 0) ? 0 : 1, 0);
     lines_.cover("certificate/trustworthy");
+    const double share = std::min(record_.number("certificate/trusted_area_fraction/source").value_or(0),
+                                  record_.number("certificate/trusted_area_fraction/target").value_or(0));
+    std::string expected = trustworthy ? "TRUSTWORTHY" : "NOT TRUSTWORTHY";
+    if (trustworthy && share < kWholeShare) expected += formatted(" ON %.0f %%", std::floor(100 * share));
+    lines_.add_deviation("certificate/verdict, other than its share says",
+                         record_.text("certificate/verdict") == expected ? 0 : 1, 0);
+    lines_.cover("certificate/verdict");
   }
 
   /// Why the compared atoms cannot be read from the recorded inputs; empty if they can.
@@ -253,18 +262,24 @@ class Verifier {
       }
     }
     const std::vector<double> weight = file_.weights(file_.is_matched);
-    double all = 0, same = 0, wrong = 0, compared = 0;
+    double all = 0, same = 0, wrong = 0, wrong_there = 0, compared = 0;
     for (std::size_t v = 0; v < weight.size(); ++v) {
       if (weight[v] <= 0) continue;
       const std::int32_t own = source.atoms.strongest(file_.source_positions[v], source.residues);
       all += weight[v];
       wrong += own == static_cast<std::int32_t>(file_.residue[v]) ? 0 : weight[v];
+      const std::int32_t there = target.atoms.strongest(file_.positions[v], target.residues);
+      wrong_there += there == static_cast<std::int32_t>(file_.target_residue[v]) ? 0 : weight[v];
       const auto found = partner.find(own);
       if (found == partner.end()) continue;
       compared += weight[v];
-      same += target.atoms.strongest(file_.positions[v], target.residues) == found->second ? weight[v] : 0;
+      same += there == found->second ? weight[v] : 0;
     }
     lines_.add_deviation("residues of the vertices, share of the area that differs", wrong / all, kResidueTolerance);
+    lines_.add_deviation("residues of the mapped vertices, share of the area that differs", wrong_there / all,
+                         kResidueTolerance);
+    lines_.cover("OUT.vtp/target_residue_index");
+    add_trust_lines(file_, residues_, partner, lines_);
     lines_.add("certificate/same_residue_area_fraction",
                compared > 0 ? same / compared : std::numeric_limits<double>::quiet_NaN(), kResidueTolerance);
   }

@@ -13,6 +13,12 @@ namespace espdiff {
 /// The quantity that colours a mapped surface. The numbers are those of shaders/surface.frag.
 enum class RenderArray { kDifference, kSource, kTarget, kSign, kDisplacement, kMagnitude, kResidue, kPlain, kSlip };
 
+/// Whether an array compares a place of the source with its place on the target; grey where that is not trusted.
+inline bool compares_places(RenderArray array) {
+  return array == RenderArray::kDifference || array == RenderArray::kSign || array == RenderArray::kDisplacement ||
+         array == RenderArray::kMagnitude;
+}
+
 /// Whether an array is of lengths, in Angstrom; the others are potentials or have no unit.
 inline bool is_length(RenderArray array) { return array == RenderArray::kDisplacement || array == RenderArray::kSlip; }
 

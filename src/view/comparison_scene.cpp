@@ -136,6 +136,7 @@ SurfaceLook ComparisonScene::look_of(const Panel& panel, const Sheet& sheet) con
   look.morph = sheet.morph;
   look.hatch_pixels = 7 * scale_factor_;
   look.cuts = geometry_.has(SurfacePart::kUnmatched);
+  look.marks = geometry_.has_untrusted() && compares_places(sheet.array);
   look.outlines = !outlined_residues(files_.record, scene_).empty();
   look.splits = sheet.from > 0 || sheet.to < 1;
   look.first_column = width * (panel.left + sheet.from * (panel.right - panel.left));
@@ -149,7 +150,7 @@ void ComparisonScene::add_parts(std::size_t panel, std::size_t sheet) {
   for (std::size_t i = 0; i < offsets_.size(); ++i) {
     if (offset == scene_.offsets_A[i]) geometry = offsets_[i].second.get();
   }
-  for (const SurfacePart part : {SurfacePart::kTrusted, SurfacePart::kCorrupt, SurfacePart::kUnmatched}) {
+  for (const SurfacePart part : {SurfacePart::kMatched, SurfacePart::kUnmatched}) {
     if (!geometry->has(part)) continue;
     auto mapper = vtkSmartPointer<SurfaceMapper>::New();
     mapper->SetInputData(geometry->part(part));
@@ -171,7 +172,7 @@ void ComparisonScene::update_looks() {
     drawn.mapper->set_look(look);
     drawn.mapper->set_maps(per_fragment() ? source_texture_ : no_texture_,
                            per_fragment() ? target_texture_ : no_texture_);
-    if (look.fades || look.opacity.greatest < 1 || drawn.part == SurfacePart::kCorrupt)
+    if (look.fades || look.opacity.greatest < 1)
       drawn.actor->ForceTranslucentOn();
     else
       drawn.actor->ForceTranslucentOff();

@@ -44,9 +44,21 @@ std::string number(double value, const std::string& unit) {
   return formatted("%.3f", value) + (unit.empty() ? "" : " " + unit);
 }
 
+/// By the codes of the array `why`.
+const char* reason_of(int why) {
+  switch (why) {
+    case 3: return "its residue has no partner";
+    case 4: return "it slipped by more than 3 A from its own atoms";
+    case 5: return "it lies on another residue than the paired one";
+    case 6: return "its residue's difference is not that of its own surfaces";
+    case 7: return "it has no potential";
+    default: return "the triangle is off the target's surface";
+  }
+}
+
 std::string trust(const PickedPoint& point) {
   if (!point.is_matched) return "without a counterpart on the target";
-  if (point.is_corrupt) return "corrupt here: the triangle is off the target's surface";
+  if (point.is_untrusted) return std::string("not trusted here: ") + reason_of(point.why);
   return "trusted here";
 }
 
@@ -107,8 +119,9 @@ PickedPoint SurfacePicker::describe(std::size_t triangle, std::array<double, 3> 
   PickedPoint point;
   point.triangle = triangle;
   point.weights = weights;
-  point.is_corrupt = surface.is_corrupt(triangle);
+  point.is_untrusted = surface.is_untrusted(triangle);
   point.is_matched = surface.is_matched(triangle);
+  point.why = surface.why.empty() ? 0 : surface.why[triangle];
   point.from_maps = files_.maps.complete();
   if (point.from_maps) {
     point.source = looked_up(*files_.maps.source, interpolated(surface.source_positions, t, weights));
@@ -144,7 +157,7 @@ std::vector<std::string> picked_in_words(const PickedPoint& point, const Compari
   lines.push_back(line("displacement", number(point.displacement_A, "A") + " to its counterpart"));
   lines.push_back(line("certificate", trust(point)));
   if (files.record.found) {
-    std::string whole = files.record.trustworthy ? "trustworthy" : "not trustworthy";
+    std::string whole = files.record.verdict;
     for (const std::string& reason : files.record.reasons) whole += "; " + reason;
     lines.push_back(line("comparison", whole));
   }

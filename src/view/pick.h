@@ -24,7 +24,8 @@ struct PickedPoint {
   float slip_A = 0;                 ///< NaN: unknown
   int residue = -1;                 ///< index into the source's residues; negative: none
   int residue_number = 0;
-  bool is_corrupt = false, is_matched = true;
+  bool is_untrusted = false, is_matched = true;
+  int why = 0;             ///< code of the reason why it is not trusted
   bool from_maps = false;  ///< potentials looked up in the maps, not interpolated between vertices
 };
 

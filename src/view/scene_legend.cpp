@@ -23,8 +23,8 @@ constexpr double kHeadShare = 0.045;
 /// What the molecule's colours mean, below the title.
 constexpr double kCaptionShare = 0.045;
 
-/// Behind a verdict that is not TRUSTWORTHY.
-constexpr Rgb kWarningColour{255, 196, 120};
+/// Behind a verdict that is not TRUSTWORTHY: on a part of the surface, and NOT TRUSTWORTHY.
+constexpr Rgb kPartColour{250, 240, 170}, kWarningColour{255, 196, 120};
 
 /// Short titles for scales side by side.
 std::string short_title(RenderArray array, const std::string& unit) {
@@ -105,21 +105,20 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   } else if (fades) {
     legend.opacity(paper.bar(left, 0.96), scene.scene().opacity);
   }
-  const bool no_value = scene.scale(sheets.front().array).has_missing();
-  const bool corrupt = scene.geometry().has(SurfacePart::kCorrupt);
+  const bool untrusted = scene.geometry().has_untrusted() && compares_places(sheets.front().array);
+  const bool no_value = !untrusted && scene.scale(sheets.front().array).has_missing();
   const bool unmatched = scene.geometry().has(SurfacePart::kUnmatched);
   const char* const unmatched_words = scene.shows_significance() ? "not tested" : "no counterpart";
   const auto needed = [&](bool drawn, const char* meaning) {
     return drawn ? legend.key_width(meaning) + paper.text_height : 0.0;
   };
-  const double all = needed(no_value, "no value") + needed(corrupt, "corrupt") + needed(unmatched, unmatched_words);
+  const double all =
+      needed(no_value, "no value") + needed(untrusted, "not trusted") + needed(unmatched, unmatched_words);
   const double y = paper.height * 0.02 + paper.text_height / 2;
   double x = std::min(paper.width * left, paper.width - all);
-  const auto key = [&](double opacity, const std::string& meaning) {
-    x += legend.key(x, y, kNoValueColour, opacity, meaning) + paper.text_height;
-  };
-  if (no_value) key(1, "no value");
-  if (corrupt) key(0.3, "corrupt");
+  const auto key = [&](const char* meaning) { x += legend.key(x, y, kNoValueColour, 1, meaning) + paper.text_height; };
+  if (no_value) key("no value");
+  if (untrusted) key("not trusted");
   if (unmatched) legend.hatched_key(x, y, unmatched_words);
 }
 
@@ -157,10 +156,12 @@ void add_head(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   }
   std::string verdict = record.verdict;
   if (!record.reasons.empty()) verdict += ": " + record.reasons.front();
+  if (record.trustworthy && !record.untrusted_parts.empty()) verdict += ": not " + record.untrusted_parts.front();
   const double n_names = std::min(0.35 * paper.width / letter, static_cast<double>(names.size()));
   legend.text(0.015 * paper.width, y, shortened(names, n_names), Align::kLeft);
   const double left = 0.03 * paper.width + n_names * letter;
-  legend.rectangle({left, y - 0.8 * paper.text_height, paper.width, y + 0.8 * paper.text_height}, kWarningColour);
+  legend.rectangle({left, y - 0.8 * paper.text_height, paper.width, y + 0.8 * paper.text_height},
+                   record.trustworthy ? kPartColour : kWarningColour);
   legend.text(left + 0.5 * paper.text_height, y, shortened(verdict, (paper.width - left) / letter - 3), Align::kLeft);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "base/smooth_field.h"
@@ -49,6 +50,23 @@ void renew_normals(const std::vector<Triangle>& triangles, const std::vector<boo
   }
 }
 
+/// [vertex] share of the matched triangles around it that are trusted, smoothed.
+std::vector<float> trusted_share(const SurfaceFile& surface) {
+  std::vector<float> trusted(surface.positions.size(), 0), matched(surface.positions.size(), 0);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (!surface.is_matched(t)) continue;
+    for (const std::uint32_t corner : surface.triangles[t]) {
+      matched[corner] += 1;
+      trusted[corner] += surface.is_untrusted(t) ? 0.0F : 1.0F;
+    }
+  }
+  for (std::size_t v = 0; v < trusted.size(); ++v)
+    trusted[v] = matched[v] > 0 ? trusted[v] / matched[v] : std::numeric_limits<float>::quiet_NaN();
+  trusted = smoothed_over_neighbours(surface.triangles, std::move(trusted), kBorderRounds);
+  for (float& share : trusted) share = std::isnan(share) ? 1 : share;
+  return trusted;
+}
+
 }  // namespace
 
 std::vector<bool> unmatched_vertices(const SurfaceFile& surface) {
@@ -66,7 +84,8 @@ std::vector<bool> unmatched_vertices(const SurfaceFile& surface) {
 }
 
 SurfaceCover cover_of(const SurfaceFile& surface, const std::vector<Vec3f>& start) {
-  SurfaceCover cover{surface.positions, surface.normals, std::vector<float>(surface.positions.size(), 1)};
+  SurfaceCover cover{surface.positions, surface.normals, std::vector<float>(surface.positions.size(), 1),
+                     trusted_share(surface)};
   const std::vector<bool> is_free = unmatched_vertices(surface);
   if (surface.unmatched.empty()) return cover;
   std::vector<Vec3d> displacements(surface.positions.size());

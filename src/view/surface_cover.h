@@ -15,6 +15,7 @@ struct SurfaceCover {
   /// [vertex] 1 in matched parts, 0 in unmatched ones, smooth between. The border at 0.5 lies in matched triangles,
   /// about half a triangle from the unmatched ones.
   std::vector<float> matched;
+  std::vector<float> trusted;  ///< [vertex] 1 in parts that are not marked as not trusted, 0 in others, smooth between
 };
 
 /// Vertices that only unmatched triangles have get the place of the superposed source, displaced as their surroundings

@@ -111,8 +111,10 @@ void read_arrays(SurfaceFile& file, const VtpContent& surface) {
     if (!(index >= 0 && index < 2e9F)) index = -1;  // becomes an integer later
   }
   file.residue_number = numbers_of(surface, "residue_number");
-  file.corrupt = flags_of(surface, "corrupt");
+  file.untrusted = flags_of(surface, "corrupt");
   file.unmatched = flags_of(surface, "no_counterpart");
+  file.why = flags_of(surface, "why");  // files of older versions lack it
+  for (std::size_t t = 0; t < file.why.size(); ++t) file.untrusted[t] = file.why[t] != 0 && file.is_matched(t) ? 1 : 0;
   file.potential_unit = text_of(surface, "potential_unit");
   file.source_group = text_of(surface, "source_group");
   file.target_group = text_of(surface, "target_group");

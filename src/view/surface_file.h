@@ -18,7 +18,8 @@ struct SurfaceFile {
   std::vector<Vec3f> normals;           ///< unit, outward, at the mapped positions
   std::vector<Vec3f> source_normals;    ///< the same at the source's, in its frame
   std::vector<Triangle> triangles;
-  std::vector<std::uint8_t> corrupt;    ///< [triangle]
+  std::vector<std::uint8_t> untrusted;  ///< [triangle] matched and not trusted
+  std::vector<std::uint8_t> why;        ///< [triangle] why it is not trusted, see result.h; empty in older files
   std::vector<std::uint8_t> unmatched;  ///< [triangle] 1: its mapped positions are meaningless
   std::vector<float> displacement;      ///< Angstrom
   std::vector<float> slip;              ///< Angstrom; NaN where it is not known; empty in files of older versions
@@ -36,7 +37,7 @@ struct SurfaceFile {
   std::string array_names;                 ///< of the point arrays in the file, for messages
 
   bool is_matched(std::size_t triangle) const { return unmatched.empty() || unmatched[triangle] == 0; }
-  bool is_corrupt(std::size_t triangle) const { return !corrupt.empty() && corrupt[triangle] != 0; }
+  bool is_untrusted(std::size_t triangle) const { return !untrusted.empty() && untrusted[triangle] != 0; }
   /// The values that colour the surface.
   /// @throws InputError if the file lacks them, listing the arrays it has
   const std::vector<float>& values(RenderArray array) const;

@@ -108,11 +108,13 @@ void add_potentials(vtkPolyData* data, const SurfaceFile& surface) {
   }
 }
 
-/// What the shaders cut and outline: share of matched surroundings, and of outlined residues (negative: none).
-void add_borders(vtkPolyData* data, const std::vector<float>& matched, const std::vector<float>& outlined) {
-  vtkFloatArray* array = add_array(data, "borders", 2);
-  for (std::size_t i = 0; i < matched.size(); ++i)
-    array->SetTuple2(static_cast<vtkIdType>(i), matched[i], outlined.empty() ? -1 : outlined[i]);
+/// What the shaders cut, outline and mark: shares of matched surroundings, of outlined residues (negative: none), and
+/// of trusted surroundings.
+void add_borders(vtkPolyData* data, const SurfaceCover& cover, const std::vector<float>& outlined) {
+  vtkFloatArray* array = add_array(data, "borders", 3);
+  for (std::size_t i = 0; i < cover.matched.size(); ++i)
+    array->SetTuple3(static_cast<vtkIdType>(i), cover.matched[i], outlined.empty() ? -1 : outlined[i],
+                     cover.trusted[i]);
 }
 
 std::vector<Vec3f> floats(const std::vector<Vec3d>& vectors) {
@@ -182,27 +184,29 @@ SurfaceGeometry::SurfaceGeometry(const SurfaceFile& surface, const RunRecord& re
                   : surface.p_family_wise,
               -1);
   add_numbers(points_, "residueIndex", surface.residue_index, -1);
-  add_borders(points_, cover_.matched, share_of_residues(surface, outlined));
-}
-
-SurfacePart SurfaceGeometry::part_of(std::size_t triangle) const {
-  if (!surface_.is_matched(triangle)) return SurfacePart::kUnmatched;
-  return surface_.is_corrupt(triangle) ? SurfacePart::kCorrupt : SurfacePart::kTrusted;
+  add_borders(points_, cover_, share_of_residues(surface, outlined));
 }
 
 bool SurfaceGeometry::draws(SurfacePart part, std::size_t triangle) const {
-  if (surface_.unmatched.empty() || surface_.is_corrupt(triangle)) return part_of(triangle) == part;
+  if (surface_.unmatched.empty()) return part == SurfacePart::kMatched;
   float low = 1, high = 0;
   for (const std::uint32_t corner : surface_.triangles[triangle]) {
     low = std::min(low, cover_.matched[corner]);
     high = std::max(high, cover_.matched[corner]);
   }
-  return part == SurfacePart::kTrusted ? high >= 0.5F : part == SurfacePart::kUnmatched && low < 0.5F;
+  return part == SurfacePart::kMatched ? high >= 0.5F : part == SurfacePart::kUnmatched && low < 0.5F;
 }
 
 bool SurfaceGeometry::has(SurfacePart part) const {
   for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
-    if (part_of(i) == part) return true;
+    if (surface_.is_matched(i) == (part == SurfacePart::kMatched)) return true;
+  }
+  return false;
+}
+
+bool SurfaceGeometry::has_untrusted() const {
+  for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
+    if (surface_.is_matched(i) && surface_.is_untrusted(i)) return true;
   }
   return false;
 }

@@ -44,6 +44,8 @@ class SurfaceGeometry {
   /// Has no triangles if the surface has no such part.
   vtkSmartPointer<vtkPolyData> part(SurfacePart part) const;
   bool has(SurfacePart part) const;
+  /// Whether a matched triangle is not trusted.
+  bool has_untrusted() const;
   const StartSurface& start() const { return start_; }
   /// Where vertices are drawn on the target, those of unmatched parts too.
   const SurfaceCover& cover() const { return cover_; }
@@ -51,7 +53,6 @@ class SurfaceGeometry {
   bool inside_maps() const { return inside_maps_; }
 
  private:
-  SurfacePart part_of(std::size_t triangle) const;
   bool draws(SurfacePart part, std::size_t triangle) const;
 
   const SurfaceFile& surface_;

@@ -67,6 +67,7 @@ std::map<std::string, std::string> shader_definitions(const SurfaceLook& look, S
   const auto truth = [](bool value) { return std::string(value ? "true" : "false"); };
   return {{"COLOUR_BY", std::to_string(look.reads_back ? kReadBack : static_cast<int>(look.scale.array()))},
           {"CUTS", truth(look.cuts)},
+          {"MARKS", truth(look.marks && !look.reads_back)},
           {"OUTLINES", truth(look.outlines)},
           {"PART", std::to_string(static_cast<int>(part))},
           {"PER_FRAGMENT", truth(lookup != Lookup::kPerVertex)},

@@ -14,7 +14,7 @@
 namespace espdiff {
 
 /// The triangles that a mapper draws; the numbers are those of shaders/surface.frag.
-enum class SurfacePart { kTrusted, kCorrupt, kUnmatched };
+enum class SurfacePart { kMatched, kUnmatched };
 
 /// Names of the point arrays that the shaders need besides positions and normals.
 inline constexpr const char* kSurfaceAttributes[] = {"startMC",         "startNormalMC", "sourcePlace", "targetPlace",
@@ -32,6 +32,7 @@ struct SurfaceLook {
   double first_column = 0, last_column = 0;
   double hatch_pixels = 14;
   bool cuts = false;        ///< along the smooth borders of unmatched parts
+  bool marks = false;       ///< grey in the smooth borders of what is not trusted
   bool outlines = false;    ///< the residues that the geometry was given
   bool reads_back = false;  ///< draws the difference as 24 bits instead of a colour, for tests
   bool fetches = false;     ///< looks up as on GPUs, on any renderer, for tests
@@ -77,7 +78,7 @@ class SurfaceMapper : public vtkOpenGLPolyDataMapper {
   void set_colour_uniforms(vtkShaderProgram* program);
 
   SurfaceLook look_;
-  SurfacePart part_ = SurfacePart::kTrusted;
+  SurfacePart part_ = SurfacePart::kMatched;
   bool changed_ = true;  ///< the program's constants are out of date
   std::shared_ptr<MapTexture> source_map_, target_map_;
   ColourTexture colours_;

@@ -175,9 +175,17 @@ namespace eval ::espdiff::gui {
             lappend warnings "\u2022 mapped twice, kept [expr {$used eq {local} ? {local motions}
                 : {the superposition of the whole}}]: $because"
         }
+        set verdict [dict get $certificate verdict]
         if {[dict get $certificate trustworthy]} {
-            set lines [linsert $warnings 0 "The mapping is within every limit that was checked."]
-            say_verdict Trustworthy $lines #d3efd8 #0b4a1c
+            set parts {}
+            if {$verdict ne "TRUSTWORTHY"} {
+                foreach part [dict get $certificate untrusted_parts] { lappend parts "\u2022 not trusted: $part" }
+            }
+            set shares [dict get $certificate trusted_area_fraction]
+            set rests [format "The numbers rest on %.3g %% of the source's surface and %.3g %% of the target's." \
+                [expr {100 * [dict get $shares source]}] [expr {100 * [dict get $shares target]}]]
+            say_verdict [string toupper [string tolower $verdict] 0 0] [concat [list $rests] $parts $warnings] \
+                #d3efd8 #0b4a1c
             return
         }
         set reasons {}

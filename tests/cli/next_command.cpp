@@ -66,8 +66,13 @@ TEST_CASE("without -o, a second run gets a name of its own") {
 
 TEST_CASE("next: a chain more in one state is left out by the command that was tried, which is trusted") {
   const ScratchFolder folder;
-  const std::string run = "compare " + folder.write("two.pqr", row_of_chain('A', 0) + row_of_chain('B', 40)) + " " +
-                          folder.write("one.pqr", row_of_chain('A', 0)) + kCoarse + " -o " + folder.file("out");
+  const std::string answered = "compare " + folder.write("two.pqr", row_of_chain('A', 0) + row_of_chain('B', 40)) +
+                               " " + folder.write("one.pqr", row_of_chain('A', 0)) + kCoarse + " --overwrite -o " +
+                               folder.file("out"),
+                    run = answered + " --require 0.95";
+  const Outcome half = run_espdiff(answered);  // on half of the surface
+  CHECK(half.status == 0);
+  CHECK_MESSAGE(contains(half.out, "TRUSTWORTHY ON "), half.out);
   const Outcome outcome = run_espdiff(run);
   CHECK(outcome.status == 3);
   CHECK(contains(outcome.out, "tried, chain A alone: TRUSTWORTHY"));

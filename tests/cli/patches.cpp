@@ -53,14 +53,13 @@ Sums sums_of(const std::string& path, int first, int last) {
   const espdiff::VtpContent vtp = espdiff::read_vtp(path);
   const auto& difference = espdiff::find_array(vtp.point_arrays, "potential_difference")->values;
   const auto& number = espdiff::find_array(vtp.point_arrays, "residue_number")->values;
-  const auto &corrupt = espdiff::find_array(vtp.cell_arrays, "corrupt")->values,
-             &without = espdiff::find_array(vtp.cell_arrays, "no_counterpart")->values;
+  const auto& why = espdiff::find_array(vtp.cell_arrays, "why")->values;
   Sums sums;
   double weight = 0;
   for (std::size_t t = 0; t < vtp.triangles.size(); ++t) {
     const auto& v = vtp.triangles[t];
     const auto n = std::count_if(v.begin(), v.end(), [&](auto c) { return number[c] >= first && number[c] <= last; });
-    if (n < 2 || corrupt[t] != 0 || without[t] != 0) continue;
+    if (n < 2 || why[t] != 0) continue;
     const auto &p = vtp.positions[v[0]], &q = vtp.positions[v[1]], &r = vtp.positions[v[2]];
     const double area = 0.5 * norm(cross(q - p, r - p));
     sums.area += area;
@@ -87,7 +86,7 @@ TEST_CASE("compare: a patch has the numbers of its surface, by a sum of its own 
     const Sums sums = sums_of(files.out("one.vtp"), first, last);
     CHECK(patch["mean_signed_difference"].get<double>() == doctest::Approx(sums.mean).epsilon(1e-4));
     CHECK(patch["mean_abs_difference"].get<double>() == doctest::Approx(sums.magnitude).epsilon(1e-4));
-    CHECK(patch["area_A2"]["valid"].get<double>() == doctest::Approx(sums.area).epsilon(1e-4));
+    CHECK(patch["area_A2"]["trusted"].get<double>() == doctest::Approx(sums.area).epsilon(1e-4));
     CHECK(patch["n_residues"] == last - first + 1);
     CHECK(patch["mean_abs_difference"].get<double>() > 0.001);
   }

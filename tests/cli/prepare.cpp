@@ -109,7 +109,7 @@ TEST_CASE("compare: two PDB entries to the answer, with a region around a ligand
   const std::size_t n_region = json["region"]["n_residues"];
   CHECK(n_region > 20);
   CHECK(n_region < 80);
-  CHECK(json["region"]["area_A2"]["valid"].get<double>() < json["area_A2"]["valid"].get<double>());
+  CHECK(json["region"]["area_A2"]["trusted"].get<double>() < json["area_A2"]["trusted"].get<double>());
   CHECK(contains(read_file(folder.file("adk.residues.csv")), ",region"));
   CHECK(json["inputs"][0]["path"] == "adk.source.pqr");
   // The kept structures repeat the comparison.

@@ -105,24 +105,28 @@ TEST_CASE("the correlation weighs residues by their area, and leaves out what ha
   CHECK(check_residues(more, source).n_residues == 30);
 }
 
-TEST_CASE("a slipped residue is left out of the correlation, and the residues that spoil it are named first") {
+TEST_CASE("a residue that disagrees by far is named, and one by the noise of all others is not") {
   std::vector<ResidueRow> rows;
-  for (std::size_t r = 0; r < 8; ++r)
-    rows.push_back(row_of(r, 40, static_cast<double>(r), static_cast<double>(r) + (r == 5 ? 2 : 0)));
-  rows[5].own_area_A2 = 10;
-  rows.push_back(row_of(8, 40, 5, -5));
-  rows.back().mean_slip_A = 3.1;
-  const std::vector<OwnPotential> source(9, {2, 50});
-  const ResidueCheck check = check_residues(rows, source);
-  CHECK(check.correlation > 0.95);
-  CHECK(check.n_residues == 8);
-  CHECK(check.n_slipped == 1);
-  const std::vector<const ResidueRow*> worst = most_disagreeing(rows);
-  REQUIRE(worst.size() == 8);
-  CHECK(worst[0]->residue == 5);
-  rows.back().mean_slip_A = 2.9;
-  CHECK(check_residues(rows, source).correlation < 0.6);
-  CHECK(most_disagreeing(rows)[0]->residue == 8);
+  for (std::size_t r = 0; r < 20; ++r)
+    rows.push_back(row_of(r, 40, static_cast<double>(r), static_cast<double>(r) + (r % 2 == 0 ? 0.1 : -0.1)));
+  const std::vector<OwnPotential> source(20, {2, 50});
+  // The median error is 0.1, so that five deviations are 0.74; 25 % of the potentials are 0.5.
+  rows[5].mean_signed_difference = rows[5].own_difference + 0.8;
+  rows[7].mean_signed_difference = rows[7].own_difference - 0.7;
+  std::vector<std::uint8_t> expected(20, 0);
+  expected[5] = 1;
+  CHECK(disagreeing_residues(rows, source) == expected);
+  CHECK(most_disagreeing(rows)[0]->residue == 5);
+  rows[5].area_A2 = 4;  // too small to say so
+  CHECK(disagreeing_residues(rows, source) == std::vector<std::uint8_t>(20, 0));
+  // Where all agree to the last digit, it takes 25 % of the potentials.
+  for (std::size_t r = 0; r < 20; ++r) rows[r].mean_signed_difference = rows[r].own_difference;
+  rows[3].mean_signed_difference += 0.49;
+  CHECK(disagreeing_residues(rows, source) == std::vector<std::uint8_t>(20, 0));
+  rows[3].mean_signed_difference += 0.02;
+  expected.assign(20, 0);
+  expected[3] = 1;
+  CHECK(disagreeing_residues(rows, source) == expected);
 }
 
 TEST_CASE("fewer than five residues have no correlation") {

@@ -41,7 +41,7 @@ def test_selections_and_regions(data, tmp_path, program):
     chosen = {"potential": "coulomb", "select": "(ARG,LYS,LEU,ILE,VAL)", "region": "(LYS)", "radii": "element", "grid_spacing": 1.5}
     result = espdiff.compare(source, target, **chosen)
     assert set(result.residues["name"]) == {"ARG", "LYS", "LEU", "ILE", "VAL"}
-    assert 0 < result.region["area_A2"]["valid"] < result.metrics["area_A2"]
+    assert 0 < result.region["area_A2"]["trusted"] < result.metrics["area_A2"]
     written = result.save(tmp_path / "chosen")
     assert [path.rsplit("chosen")[-1] for path in written] == [".json", ".vtp", ".residues.csv", ".source.pqr", ".target.pqr"]
     options = [text for name, value in chosen.items() for text in (f"--{name.replace('_', '-')}", str(value))]
@@ -86,7 +86,7 @@ def test_options_of_files_are_refused_for_arrays(made, option):
 
 def test_arrays_have_regions(made):
     result = espdiff.compare(*made, region="//A/3-5", **QUICK)
-    assert 0 < result.region["area_A2"]["valid"] < result.metrics["area_A2"]
+    assert 0 < result.region["area_A2"]["trusted"] < result.metrics["area_A2"]
     with pytest.raises(espdiff.InputError, match="region"):
         espdiff.compare(*made, region="//Z", **QUICK)
 

@@ -98,10 +98,11 @@ TEST_CASE("what was not checked is null as a whole, and has no line") {
 TEST_CASE("the residues' metrics are those of the table, the path length among them") {
   const CompareResult result = full_result();
   const std::vector<std::string> quantities = residue_quantities();
-  CHECK(quantities == std::vector<std::string>{"share", "contribution", "area_A2", "mean_abs_difference",
-                                               "mean_signed_difference", "mean_source", "mean_target",
-                                               "sign_change_area_fraction", "mean_displacement_A", "mean_path_length_A",
-                                               "own_difference", "own_area_A2", "mean_slip_A", "slip_area_fraction"});
+  CHECK(quantities == std::vector<std::string>{"share", "contribution", "area_A2", "trusted_area_fraction",
+                                               "mean_abs_difference", "mean_signed_difference", "mean_source",
+                                               "mean_target", "sign_change_area_fraction", "mean_displacement_A",
+                                               "mean_path_length_A", "own_difference", "own_area_A2", "mean_slip_A",
+                                               "slip_area_fraction"});
   CHECK(residue_values(result, "mean_path_length_A") == std::vector<double>{2, 3});
   CHECK(residue_unit(result, "mean_path_length_A") == "A");
   CHECK(residue_unit(result, "mean_source") == "kT/e");

@@ -64,6 +64,9 @@ CompareResult made_result() {
   result.residues = {{0, 6, 1, -1, 2, 1, 0.5, 1, 2, 0.25, 0, -1.5, 5},
                      {1, 4, 2, 2, 0, 2, 0, 1.5, 3, 3.5, 0.5, 2.5, 4},
                      {2, 0, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan}};
+  result.residues[0].trusted_area_fraction = 1;
+  result.residues[1].trusted_area_fraction = 0.5;
+  result.residues[2].trusted_area_fraction = kNan;
   MappedSurface& s = result.surface;
   s.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   s.source_positions = {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}};
@@ -75,7 +78,9 @@ CompareResult made_result() {
   s.displacement = {1, 1, 1, 1};
   s.path_length = {1.5, 1, 2, 1};
   s.residue = {0, 1, 2, -1};
+  s.target_residue = {0, 2, 2, -1};
   s.corrupt = {0, 0, 1, 0};
+  s.why = {0, 7, 2, 4};
   result.time_ms = {{"align", 1.5}, {"total", 20}};
   return result;
 }
@@ -120,7 +125,7 @@ TEST_CASE("OUT.json has every key of the contract, with its type") {
   }
   for (const char* key : {"potential_unit", "device", "version"}) CHECK_MESSAGE(json.at(key).is_string(), key);
   for (const char* key : {"area_A2", "certificate", "time_ms", "options"}) CHECK_MESSAGE(json.at(key).is_object(), key);
-  for (const char* key : {"source", "mapped", "valid"}) CHECK_MESSAGE(json.at("area_A2").at(key).is_number(), key);
+  for (const char* key : {"source", "mapped", "trusted"}) CHECK_MESSAGE(json.at("area_A2").at(key).is_number(), key);
   const Json& certificate = json.at("certificate");
   for (const char* key : {"corrupt_area_fraction", "flipped_area_fraction", "irregularity_A"}) {
     CHECK_MESSAGE(certificate.at(key).is_number(), key);
@@ -132,6 +137,10 @@ TEST_CASE("OUT.json has every key of the contract, with its type") {
   CHECK(certificate.at("no_counterpart_area_fraction").at("target").is_number());
   CHECK(certificate.at("converged").is_boolean());
   CHECK(certificate.at("trustworthy").is_boolean());
+  CHECK(certificate.at("verdict").is_string());
+  CHECK(certificate.at("untrusted_parts").is_array());
+  CHECK(certificate.at("trusted_area_fraction").at("source").is_number());
+  CHECK(certificate.at("not_trusted").size() == espdiff::kNumberOfWhys - 1);
   CHECK(certificate.at("reasons").is_array());
 }
 
@@ -142,7 +151,7 @@ TEST_CASE("OUT.json has the result's values") {
   CHECK(json["potential_unit"] == "kT/e");
   CHECK(json["mean_signed_difference"] == -0.5);
   CHECK(json["hodgkin_index"] == 0.75);
-  CHECK(json["area_A2"] == Json({{"source", 11}, {"target", 12}, {"mapped", 12}, {"valid", 10}}));
+  CHECK(json["area_A2"] == Json({{"source", 11}, {"target", 12}, {"mapped", 12}, {"trusted", 10}}));
   CHECK(json["mean_displacement_A"] == 1.25);
   CHECK(json["mean_path_length_A"] == 1.75);
   CHECK(json["metrics_all_triangles"]["mean_abs_difference"] == 1.6);
@@ -233,7 +242,7 @@ TEST_CASE("what has no value is null") {
     CHECK_MESSAGE(json.at(key).is_null(), key);
   }
   // Shapes are compared all the same: (6 * 1 + 4 * 1.5) / 10.
-  CHECK(json["area_A2"]["valid"] == 10);
+  CHECK(json["area_A2"]["trusted"] == 10);
   CHECK(json["mean_displacement_A"].get<double>() == doctest::Approx(1.2));
   CHECK(json["mean_path_length_A"].get<double>() == doctest::Approx(2.4));
 }
@@ -251,13 +260,13 @@ TEST_CASE("OUT.residues.csv has one row a source residue, with units") {
   const ScratchFolder folder;
   write(folder.file("out"));
   CHECK(read_file(folder.file("out.residues.csv")) ==
-        "chain,residue_number,insertion_code,residue_name,area [A^2],mean_abs_difference [kT/e],mean_signed_difference "
-        "[kT/e],"
+        "chain,residue_number,insertion_code,residue_name,area [A^2],trusted_area_fraction,"
+        "mean_abs_difference [kT/e],mean_signed_difference [kT/e],"
         "mean_source [kT/e],mean_target [kT/e],sign_change_area_fraction,mean_displacement [A],mean_path_length [A],"
         "own_difference [kT/e],own_area [A^2],mean_slip [A],slip_area_fraction\n"
-        "A,7,,ALA,6,1,-1,2,1,0.5,1,2,-1.5,5,0.25,0\n"
-        "A,7,B,GLY,4,2,2,0,2,0,1.5,3,2.5,4,3.5,0.5\n"
-        ",9,,LYS,0,,,,,,,,,,,\n");
+        "A,7,,ALA,6,1,1,-1,2,1,0.5,1,2,-1.5,5,0.25,0\n"
+        "A,7,B,GLY,4,0.5,2,2,0,2,0,1.5,3,2.5,4,3.5,0.5\n"
+        ",9,,LYS,0,,,,,,,,,,,,\n");
 }
 
 TEST_CASE("OUT.vtp has the arrays of the contract") {
@@ -300,7 +309,7 @@ TEST_CASE("without potentials OUT.vtp has no potential arrays, and the table's c
   result.surface.potential_target.clear();
   write(folder.file("out"), result);
   CHECK(read_file(folder.file("out.vtp")).find("potential") == std::string::npos);
-  CHECK(read_file(folder.file("out.residues.csv")).find("\nA,7,,ALA,6,,,,,,1,2,,,0.25,0\n") != std::string::npos);
+  CHECK(read_file(folder.file("out.residues.csv")).find("\nA,7,,ALA,6,1,,,,,,1,2,,,0.25,0\n") != std::string::npos);
 }
 
 TEST_CASE("all files of a result appear, or none") {
@@ -346,9 +355,19 @@ TEST_CASE("the table gives the verdict with its reasons, and units") {
 
   result.certificate.trustworthy = true;
   result.certificate.reasons.clear();
+  result.certificate.trusted.source = 0.95;
+  result.certificate.trusted.target = 1;
+  result.certificate.untrusted_parts = {"GLY 7B of chain A (12 A^2): slipped off its atoms"};
   table = made_table(result);
-  CHECK(table.find("\nTRUSTWORTHY: ") != std::string::npos);
+  CHECK(table.find("\nTRUSTWORTHY: the numbers rest on 95 % of the source's surface and 100 % of the target's\n") !=
+        std::string::npos);
   CHECK(table.find("NOT TRUSTWORTHY") == std::string::npos);
+  CHECK(table.find("Not trusted:") == std::string::npos);
+
+  result.certificate.trusted.source = 0.839;
+  table = made_table(result);
+  CHECK(table.find("\nTRUSTWORTHY ON 83 %: the numbers rest on 83.9 % of the source's surface") != std::string::npos);
+  CHECK(table.find("\nNot trusted:\n  - GLY 7B of chain A (12 A^2): slipped off its atoms\n") != std::string::npos);
 
   result.has_potential = false;
   table = made_table(result);

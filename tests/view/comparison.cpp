@@ -330,8 +330,8 @@ TEST_CASE("a picked point is described in text") {
   CHECK(contains(text(), "1.750 kT/e, the sign changes"));
   CHECK(contains(text(), "0.400 A to its counterpart"));
   CHECK(contains(text(), "trusted here"));
-  point.is_corrupt = true;
-  CHECK(contains(text(), "corrupt here"));
+  point.is_untrusted = true;
+  CHECK(contains(text(), "not trusted here"));
   point.is_matched = false;
   point.target = std::nanf("");
   CHECK(contains(text(), "without a counterpart on the target"));

@@ -106,7 +106,7 @@ double worst_share(const std::string& vtp, bool fetches) {
   look.reads_back = true;
   look.fetches = fetches;
   look.inside_maps = !fetches && geometry.inside_maps();
-  const auto part = geometry.part(SurfacePart::kTrusted);
+  const auto part = geometry.part(SurfacePart::kMatched);
   // Removes the vertices' values, so that only the maps can provide them.
   auto* between = vtkFloatArray::SafeDownCast(part->GetPointData()->GetArray("vertexPotential"));
   between->FillValue(0);
@@ -136,9 +136,9 @@ TEST_CASE("each shader compiles here, and an error gives the driver's message") 
     look.scale = ColourScale(static_cast<RenderArray>(array), {1}, 0);
     for (int choice = 0; choice < 12; ++choice) {
       look.fades = choice % 2 == 0;
-      look.splits = choice % 3 == 0;
+      look.splits = choice % 2 == 0;
       look.inside_maps = choice % 5 == 0;
-      const auto part = static_cast<SurfacePart>(choice % 3);
+      const auto part = static_cast<SurfacePart>(choice % 2);
       text =
           shader_text("surface.frag", shader_definitions(look, part, static_cast<Lookup>(choice / 4), choice % 4 < 2));
       CHECK(compile_problem(text, false) == "");

@@ -84,3 +84,20 @@ TEST_CASE("the outline of residues lies between them") {
   CHECK(share[44] < 0.5F);
   CHECK(share_of_residues(sheet, {}).empty());
 }
+
+TEST_CASE("parts that are not trusted end at a smooth line, and unmatched triangles count for neither") {
+  std::vector<Vec3f> start;
+  SurfaceFile sheet = torn_sheet(start);
+  for (const Triangle& t : sheet.triangles) sheet.untrusted.push_back(start[t[0]].x < 4 ? 1 : 0);
+  const SurfaceCover cover = cover_of(sheet, start);
+  float before = 0;
+  for (std::size_t x = 0; x < kSide; ++x) {  // along the edge, where nothing is lost
+    CHECK(cover.trusted[x] >= before);
+    before = cover.trusted[x];
+  }
+  CHECK(cover.trusted[1] < 0.2F);
+  CHECK(cover.trusted[kSide - 2] > 0.8F);
+  CHECK(cover.trusted[4 * kSide + 4] == 1);  // in the hole
+  sheet.untrusted.clear();
+  for (const float share : cover_of(sheet, start).trusted) CHECK(share == 1);
+}

@@ -1,0 +1,90 @@
+// trusted_area.h: where a comparison can be trusted: a reason for each triangle that it cannot, their sums, and names.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/message.h"
+#include "base/types.h"
+
+namespace espdiff {
+
+struct Certificate;
+struct CompareResult;
+struct MappedSurface;
+struct ResidueRow;
+
+/// Why a triangle is not trusted; the first that holds. The numbers stand in OUT.vtp (`why`).
+enum class Why : std::uint8_t {
+  kTrusted = 0,
+  kUnmatched = 1,  ///< it has no place on the target
+  kCorrupt = 2,    ///< its place is not on the target's surface (only with deform)
+  kUnpaired = 3,   ///< its residue has no partner
+  kSlipped = 4,    ///< it slipped by more than kLargeSlip_A
+  /// Two of its corners lie off the paired residue: on one that does not touch it, or farther than kBorder_A from what
+  /// belongs to the paired atoms.
+  kOtherResidue = 5,
+  /// Its residue's mapped difference is not that of the residue's potentials on its own surfaces; see
+  /// disagreeing_residues().
+  kDisagrees = 6,
+  kNoPotential = 7  ///< a corner lies outside a map, or inside the surface where potentials are read outside it
+};
+constexpr std::size_t kNumberOfWhys = 8;
+
+/// The key in OUT.json: "slipped".
+const char* key_of(Why why);
+
+/// Of a point on a residue that touches its own: a fifth of the lattice's spacing.
+constexpr double kBorder_A = 0.2;
+/// From this share of both surfaces on, a result is trustworthy as a whole.
+constexpr double kWholeShare = 0.95;
+
+/// Shares of the area of the source's whole surface and of the target's.
+struct TrustedArea {
+  double source = 0, target = 0;
+  std::array<double, kNumberOfWhys> by_why{};  ///< of the source's area, by Why
+
+  /// The smaller of the two, by which verdicts are given; NaN without surface.
+  double share() const { return source < target || source != source ? source : target; }
+};
+
+/// [triangle] Why, as far as the mapping shows it: all but kDisagrees and kNoPotential.
+/// @param surface   with slip (may be empty) and residues
+/// @param target_of [source residue] from paired_residues(); where no residue pairs, residues are not judged
+std::vector<std::uint8_t> why_of_mapping(const MappedSurface& surface, const std::vector<std::int32_t>& target_of);
+
+/// Marks the triangles without a potential on either side.
+void mark_without_potential(MappedSurface& surface);
+
+/// Marks the triangles with two corners on such residues. @param residues [residue] nonzero to mark
+void mark_disagreeing(MappedSurface& surface, const std::vector<std::uint8_t>& residues);
+
+/// [triangle] nonzero where it is not trusted.
+std::vector<float> untrusted_triangles(const MappedSurface& surface);
+
+/// @param outside          [triangle] nonzero where it does not belong to the part; empty for the whole
+/// @param unmatched_target of the certificate: the share of the target's area that nothing was mapped to
+TrustedArea sum_trusted(const MappedSurface& surface, const std::vector<float>& outside, double unmatched_target);
+
+/// The parts that are not trusted, by residues, largest first: "GLY 47 to SER 51 of chain A (230 A^2): slipped". At
+/// most six are named. @param rows the residues to look at
+std::vector<std::string> untrusted_parts(const MappedSurface& surface, const std::vector<ResidueRow>& rows,
+                                         const Molecule& source);
+
+/// The mean absolute difference over the source's whole surface, of which the trusted part is known.
+struct WholeSurface {
+  /// If the rest of each residue differs like the residue's potentials on its own surfaces, times the ratio of both
+  /// over the trusted part.
+  double estimate = 0;
+  double at_most = 0;  ///< if the rest has the largest difference of a vertex that has both potentials
+};
+/// NaN without potentials.
+WholeSurface whole_surface(const CompareResult& result);
+
+/// "TRUSTWORTHY", "TRUSTWORTHY ON 83 %" (of the smaller share, rounded down), or "NOT TRUSTWORTHY".
+std::string verdict_of(const Certificate& certificate);
+
+}  // namespace espdiff
