@@ -22,9 +22,6 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// A residual of ten times the map's leaves contributions that are off by 1e-6 of the largest (bench/causes_brute_force).
-constexpr double kOfTolerance = 10;
-
 using AfterCycle = std::function<void(double)>;
 
 /// The transposes on one grid, for several readings. All is public: nvcc takes no device lambdas in private members.
@@ -66,8 +63,7 @@ struct TransposedProblem {
 
   /// Adds B^t g_ of Debye-Hueckel values on the border.
   void add_border(std::vector<double>& sums) {
-    const std::vector<double> far =
-        debye_hueckel_transposed(atoms_, lattice_, border_law(constants_, origin_.pb), g_);
+    const std::vector<double> far = debye_hueckel_transposed(atoms_, lattice_, border_law(constants_, origin_.pb), g_);
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += far[i];
   }
 
@@ -96,7 +92,7 @@ struct TransposedProblem {
     solution_.values.assign(g_.size(), 0.0F);
     add_to_g(inner);
     SolverOptions solver;
-    solver.tolerance = kOfTolerance * origin_.pb.tolerance;
+    solver.tolerance = origin_.pb.tolerance;
     solver.max_cycles = origin_.pb.max_cycles;
     solver.norm = std::sqrt(dot_product(g_, g_));
     if (solver.norm == 0) return;

@@ -372,8 +372,8 @@ void pair_by_arrangement(const ResidueView& source, const ResidueView& target, S
   pairing.pairs = std::move(pairs);
 }
 
-/// Residues of the polymer with the same chain, number and insertion code, where only one has them on each side, and the
-/// same name, or a substituted one.
+/// Residues of the polymer with the same chain, number and insertion code, where only one has them on each side, and
+/// the same name, or a substituted one.
 IndexPairs pair_by_names(const ResidueView& source, const ResidueView& target) {
   using Key = std::tuple<std::string, std::int32_t, char>;
   const auto keys = [](const ResidueView& view) {

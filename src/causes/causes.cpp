@@ -87,7 +87,8 @@ double ScannedResidue::largest() const {
   return size;
 }
 
-ResidueSums sum_by_residue(const Molecule& molecule, const Molecule& charges, const std::vector<double>& contributions) {
+ResidueSums sum_by_residue(const Molecule& molecule, const Molecule& charges,
+                           const std::vector<double>& contributions) {
   ResidueSums sums;
   sums.of_residue.assign(molecule.residues.size(), 0.0);
   std::map<Key, std::size_t> index;

@@ -166,7 +166,8 @@ struct ResidueSums {
   std::map<std::string, std::pair<double, std::size_t>> of_others;
   double all = 0;
 };
-/// @param charges       whose charges made the potential; residues of the same name, chain and number are the molecule's
+/// @param charges       whose charges made the potential; residues of the same name, chain and number are the
+/// molecule's
 /// @param contributions [atom of `charges`]
 ResidueSums sum_by_residue(const Molecule& molecule, const Molecule& charges, const std::vector<double>& contributions);
 

@@ -225,7 +225,8 @@ std::vector<CausePanel> cause_panels(const CsvTable& table) {
 /// The table of a result's causes, whichever of its files is given.
 std::string cause_table_of(const std::string& given) {
   const std::string ending = ".causes.csv";
-  const bool is_table = given.size() > ending.size() && given.compare(given.size() - ending.size(), ending.size(), ending) == 0;
+  const bool is_table =
+      given.size() > ending.size() && given.compare(given.size() - ending.size(), ending.size(), ending) == 0;
   const std::string path = is_table ? given : result_prefix(given) + ending;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
@@ -303,8 +304,9 @@ Verb add_plot(CLI::App& app) {
       ->capture_default_str()
       ->group("Comparison");
   parser
-      ->add_flag("--causes", a->causes,
-                 "The residues that make a comparison's difference, as bars for each of its readings (compare --causes)")
+      ->add_flag(
+          "--causes", a->causes,
+          "The residues that make a comparison's difference, as bars for each of its readings (compare --causes)")
       ->group("Comparison");
   parser->add_option("--order", a->order, "Order of a heat map; dendrogram draws the clustering too")
       ->check(CLI::IsMember({"given", "dendrogram"}))

@@ -170,8 +170,7 @@ struct TemplateMapping::Parts {
       reading.mean /= area;  // NaN where nothing of it has a value
       readings.push_back(std::move(reading));
     }
-    const MeshPtr points =
-        moved_outside(engine, mapping.mapped, target.atoms, isovalue(), options.offsets_A.front());
+    const MeshPtr points = moved_outside(engine, mapping.mapped, target.atoms, isovalue(), options.offsets_A.front());
     const auto found = engine.contributions(made.map, points, shares, {}, progress);
     const std::vector<std::int32_t> partner = paired_residues(*source.molecule, *frame.molecule, pairing);
     for (std::size_t r = 0; r < readings.size(); ++r) {

@@ -45,7 +45,7 @@ struct TemplateFrame {
   double distance_A = 0;                               ///< mean, from the mapped surface to the frame's
   double same_residue_area_fraction = 0;
   bool trustworthy = false;
-  std::string reason;  ///< the first reason why not
+  std::string reason;                  ///< the first reason why not
   std::vector<FrameReading> readings;  ///< those of take_apart()
   std::vector<std::pair<std::string, double>> time_ms;
 };

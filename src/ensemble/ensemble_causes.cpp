@@ -43,8 +43,10 @@ std::vector<double> areas_of_patch(const std::string& name, const EnsembleFile& 
     return areas;
   }
   throw InputError(option("causes", "patch " + name) + ": there is no such patch; " +
-                   std::to_string(result.patches.size()) + " were found significant (patch 1 is the first of the "
-                   "table), and others are named by " + option("patch", name + "=SELECTION"));
+                   std::to_string(result.patches.size()) +
+                   " were found significant (patch 1 is the first of the "
+                   "table), and others are named by " +
+                   option("patch", name + "=SELECTION"));
 }
 
 /// Means over the frames of each replicate.
@@ -84,8 +86,7 @@ void compare_groups(const EnsemblePlan& plan, const EnsembleResult& result, Ense
     values.emplace_back(n_residues);
     causes.means.emplace_back();
     for (std::size_t r = 0; r < n_residues; ++r) {
-      for (const std::size_t k : plan.replicates_of(group.name))
-        values.back()[r].push_back(causes.of_replicate[k][r]);
+      for (const std::size_t k : plan.replicates_of(group.name)) values.back()[r].push_back(causes.of_replicate[k][r]);
       causes.means.back().push_back(group_moments(values.back()[r].data(), values.back()[r].size()).mean);
     }
   }
@@ -151,7 +152,8 @@ std::vector<EnsembleCauses> find_ensemble_causes(Engine& engine, const CompareIn
                                                  const std::function<CompareInput(std::size_t)>& read,
                                                  const Progress& progress) {
   std::vector<std::vector<double>> areas;
-  for (const std::string& text : options.causes) areas.push_back(areas_of_patch(parse_reading(text).patch, file, result));
+  for (const std::string& text : options.causes)
+    areas.push_back(areas_of_patch(parse_reading(text).patch, file, result));
   TemplateMapping mapping(engine, source, options, progress);
   mapping.take_apart(areas);
   std::vector<EnsembleCauses> all(areas.size());
@@ -162,7 +164,8 @@ std::vector<EnsembleCauses> find_ensemble_causes(Engine& engine, const CompareIn
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     std::string text = formatted("causes: frame %zu of %zu is solved again", i + 1, frames.size());
-    if (i > 0) text += ", " + in_words(seconds / static_cast<double>(i) * static_cast<double>(frames.size() - i)) + " left";
+    if (i > 0)
+      text += ", " + in_words(seconds / static_cast<double>(i) * static_cast<double>(frames.size() - i)) + " left";
     const double share = static_cast<double>(i) / static_cast<double>(frames.size());
     const Progress inner([&](const std::string&, double) { progress.report(text, share); });
     inner.report("read", 0.0);

@@ -30,7 +30,8 @@ std::vector<std::string> inputs_of(const EnsembleStudy& study, std::vector<std::
 
 /// Results of one group are fewer.
 std::vector<std::string> outputs_of(const EnsembleStudy& study) {
-  return ensemble_outputs(study.run.output, {true, !study.regress.empty(), study.states, !study.options.causes.empty()});
+  return ensemble_outputs(study.run.output,
+                          {true, !study.regress.empty(), study.states, !study.options.causes.empty()});
 }
 
 std::string output_of_check(const EnsembleStudy& study, const std::string& group) {

@@ -180,8 +180,8 @@ std::vector<std::string> ensemble_outputs(const std::string& prefix, const Ensem
 
 std::vector<std::string> write_ensemble(const std::string& prefix, const EnsembleFile& file,
                                         const EnsembleResult& result) {
-  const std::vector<std::string> paths =
-      ensemble_outputs(prefix, {result.compares, result.regression.has_value(), result.states.has_value(), !result.causes.empty()});
+  const std::vector<std::string> paths = ensemble_outputs(
+      prefix, {result.compares, result.regression.has_value(), result.states.has_value(), !result.causes.empty()});
   std::vector<std::unique_ptr<AtomicFile>> files;
   std::vector<AtomicFile*> all;
   for (const std::string& path : paths) {

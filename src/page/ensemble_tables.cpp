@@ -118,6 +118,22 @@ TableJson template_rows(const TableJson& record) {
   return rows;
 }
 
+/// What the charges of each residue add to a patch, and to its difference.
+TableJson cause_table(const TableJson& reading, const EnsembleNames& names) {
+  TableJson rows = TableJson::array();
+  for (const TableJson& residue : reading.at("largest"))
+    rows.push_back(TableJson::array({residue.at("residue"), short_number(residue.at("means"), names.source.c_str()),
+                                     short_number(residue.at("means"), names.target.c_str()), interval(residue, names),
+                                     short_number(residue, "p_false_discovery", 2)}));
+  return TableJson{
+      {"title", "Causes, " + reading.at("reading").get<std::string>()},
+      {"help", "What the charges of each residue add to the patch's mean potential, over " +
+                   short_number(reading, "n_frames") + " frames. p is adjusted for the false discovery rate."},
+      {"columns", TableJson::array({"Residue", names.source + " [" + names.unit + ']',
+                                    names.target + " [" + names.unit + ']', "Difference", "p"})},
+      {"rows", std::move(rows)}};
+}
+
 }  // namespace
 
 std::string EnsembleNames::filled(const std::string& label) const {
@@ -181,15 +197,19 @@ TableJson ensemble_tables(const TableJson& record, const EnsembleNames& names) {
                     short_number(r, "median_effective_samples", 3), percent(r, "trend_share"),
                     short_number(r, "mean_potential"), short_number(r, "mean_rmsd_A", 3),
                     short_number(r, "n_not_trustworthy"), short_number(r, "n_failed")});
-  return TableJson::array({TableJson{{"title", "Replicates"},
-                                     {"help",
-                                      "g frames hold as much as one independent sample; a run that samples a state has "
-                                      "a trend of 11 % in the mean, one "
-                                      "that diffuses 60 %. RMSD from the template."},
-                                     {"columns",
-                                      {"Group", "Replicate", "Frames", "g", "Effective samples", "Trend",
-                                       "Mean [" + names.unit + ']', "RMSD [A]", "Not trusted", "Failed"}},
-                                     {"rows", std::move(rows)}}});
+  TableJson tables =
+      TableJson::array({TableJson{{"title", "Replicates"},
+                                  {"help",
+                                   "g frames hold as much as one independent sample; a run that samples a state has "
+                                   "a trend of 11 % in the mean, one "
+                                   "that diffuses 60 %. RMSD from the template."},
+                                  {"columns",
+                                   {"Group", "Replicate", "Frames", "g", "Effective samples", "Trend",
+                                    "Mean [" + names.unit + ']', "RMSD [A]", "Not trusted", "Failed"}},
+                                  {"rows", std::move(rows)}}});
+  const TableJson causes = record.value("causes", TableJson::array());
+  for (const TableJson& reading : causes) tables.push_back(cause_table(reading, names));
+  return tables;
 }
 
 TableJson patch_rows(const TableJson& record, const EnsembleNames& names) {

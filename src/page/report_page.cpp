@@ -1,10 +1,12 @@
 // report_page.cpp: puts a result's record, arrays and the embedded page together.
 #include "page/report_page.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "base/surface_parts.h"
+#include "io/write_csv.h"
 #include "page/assembled_page.h"
 #include "page/page_arrays.h"
 #include "page/page_molecule.h"
@@ -87,6 +89,40 @@ Json residues_of(const CsvTable& table) {
   return {{"columns", columns}, {"names", names}, {"rows", rows}};
 }
 
+/// A text of a member, or a number with four digits; "-" without one.
+std::string shown_member(const Json& json, const char* name) {
+  const auto found = json.find(name);
+  if (found == json.end() || found->is_null()) return "-";
+  return found->is_number()   ? csv_number(found->get<double>(), 4)
+         : found->is_string() ? found->get<std::string>()
+                              : "-";
+}
+
+/// The causes of each reading: in words, and the residues that contribute most.
+Json cause_tables(const Json& record) {
+  Json tables = Json::array();
+  const Json causes = record.value("causes", Json::array());
+  for (const Json& reading : causes) {
+    Json rows = Json::array();
+    const Json largest = reading.value("largest", Json::array());
+    for (const Json& residue : largest) {
+      const std::string detail = residue.value("detail", "");
+      std::string what = detail.empty() ? residue.value("kind", "") : detail;
+      std::replace(what.begin(), what.end(), '_', ' ');
+      rows.push_back(Json::array({shown_member(residue, "residue"), what, shown_member(residue, "source"),
+                                  shown_member(residue, "target"), shown_member(residue, "difference")}));
+    }
+    const std::string unit = " [" + shown_member(reading, "unit") + ']';
+    Json table = {{"title", "Causes of the difference, " + shown_member(reading, "reading")},
+                  {"help", shown_member(reading, "in_words") + ". " + shown_member(reading, "certainty")}};
+    table["columns"] = Json::array(
+        {"Residue", "What changed", "Source" + unit, "Target" + unit, "Contribution to the difference" + unit});
+    table["rows"] = std::move(rows);
+    tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
 // ---- surface --------------------------------------------------------------------------------------------------------
 
 Json quantities_json(PageArrays& arrays, const PairFiles& files) {
@@ -125,6 +161,7 @@ std::string report_page(const std::string& prefix, const std::string& title, con
   page["verdict"] = {{"trustworthy", verdict.trustworthy}, {"text", verdict.text}, {"reasons", verdict.reasons}};
   page["warnings"] = verdict.warnings;
   page["numbers"] = numbers_of(files.record, files.unit);
+  page["tables"] = cause_tables(files.record);
   page["residues"] = residues_of(files.residues);
   page["provenance"] = provenance_of(files);
   PageArrays arrays;

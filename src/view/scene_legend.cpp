@@ -169,8 +169,8 @@ void add_head(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
 LegendShares legend_shares(const Scene& scene) {
   if (!scene.legend) return {0, 1};
   const bool has_names = scene.layout != Layout::kTurned || scene.n_views > 1 || !scene.offsets_A.empty();
-  return {kLegendShare + (has_names ? kNameShare : 0), 1 - (scene.title.empty() ? 0 : kTitleShare) - kHeadShare -
-                                                           (scene.causes.empty() ? 0 : kCaptionShare)};
+  return {kLegendShare + (has_names ? kNameShare : 0),
+          1 - (scene.title.empty() ? 0 : kTitleShare) - kHeadShare - (scene.causes.empty() ? 0 : kCaptionShare)};
 }
 
 void add_scene_legend(vtkRenderer* renderer, const ComparisonScene& scene, double scale_factor) {
@@ -183,7 +183,8 @@ void add_scene_legend(vtkRenderer* renderer, const ComparisonScene& scene, doubl
   if (scene.causes()) {
     const double title = scene.scene().title.empty() ? 0 : kTitleShare;
     const std::string words = causes_in_words(*scene.causes());
-    const double size = std::min(1.0, 0.97 * paper.width / (0.52 * paper.text_height * static_cast<double>(words.size())));
+    const double size =
+        std::min(1.0, 0.97 * paper.width / (0.52 * paper.text_height * static_cast<double>(words.size())));
     legend.text(paper.width / 2, paper.height * (1 - kHeadShare - title - kCaptionShare / 2), words, Align::kCentre,
                 size);
   }

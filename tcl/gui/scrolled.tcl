@@ -1,6 +1,8 @@
 # scrolled.tcl: a page that scrolls if the screen is too small.
 
 namespace eval ::espdiff::gui {
+    variable fitted  ;# by the frame of a page: width and height that the page asked for when it was fitted
+
     # Makes the frame `path` with a vertically scrolling page; returns the page.
     proc scrolled {path} {
         ttk::frame $path
@@ -22,8 +24,10 @@ namespace eval ::espdiff::gui {
     # The view is as high as the page, if the screen permits; the bar appears only when needed. A page is at least as high as
     # its view, so that plots grow with the window.
     proc fit_page {path} {
+        variable fitted
         set width [winfo reqwidth $path.view.page]
         set height [winfo reqheight $path.view.page]
+        set fitted($path) [list $width $height]
         $path.view itemconfigure page -width [expr {max($width, [winfo width $path.view])}] \
             -height [expr {max($height, [winfo height $path.view])}]
         $path.view configure -width $width -height [expr {min($height, [winfo screenheight $path] - 180)}] \
@@ -33,6 +37,15 @@ namespace eval ::espdiff::gui {
         } else {
             grid remove $path.bar
         }
+    }
+
+    # A widget on a page changed its size, and perhaps what the page asks for, whose own size is set.
+    proc notice_growth {path} {
+        variable fitted
+        set frame [page_of $path]
+        if {![info exists fitted($frame)] || ![winfo exists $frame]} return
+        set page $frame.view.page
+        if {$fitted($frame) ne [list [winfo reqwidth $page] [winfo reqheight $page]]} { fit_page $frame }
     }
 
     # After a change of what the page contains: it asks for another width without an event, as its own is set.
@@ -58,6 +71,7 @@ namespace eval ::espdiff::gui {
             bind EspdiffWheel $event {+break}
         }
         bind EspdiffWheel <MouseWheel> {::espdiff::gui::turn_wheel %W [expr {%D > 0 ? -3 : 3}]; break}
+        bind EspdiffWheel <Configure> {::espdiff::gui::notice_growth %W}
         bind EspdiffWheel <FocusIn> {::espdiff::gui::bring_into_view %W}
     }
 

@@ -43,7 +43,7 @@ const Rooms kAllowed = {
     {"trajectory", {"base", "align", "engine", "io", "compare", "prepare", "potential", "plot", "report"}},
     {"matrix", {"system", "base", "align", "engine", "io", "compare", "prepare", "potential", "report"}},
     {"ensemble",
-     {"system", "base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "report",
+     {"system", "base", "align", "causes", "engine", "io", "statistics", "compare", "prepare", "potential", "report",
       "trajectory", "matrix"}},
     {"cli",
      {"system", "base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "plot", "view",

@@ -121,9 +121,11 @@ TEST_CASE("the mutant's charge makes the difference of a patch, fixed or found, 
   const std::string table = read_file(in.folder.file("out.causes.csv"));
   CHECK(contains(first_line(table), "reading,residue,mean_wild,mean_mutant,difference,low,high,t,p,p_false_discovery"));
   const auto refused = [&](const std::string& options) { return in.ensemble(in.groups + " -o other " + options).err; };
-  CHECK(contains(refused("--causes whole"), "--causes whole: an ensemble's causes are of a patch; give --causes 'patch NAME'"));
+  CHECK(contains(refused("--causes whole"),
+                 "--causes whole: an ensemble's causes are of a patch; give --causes 'patch NAME'"));
   CHECK(contains(refused("--scan --causes 'patch 1'"), "--scan is of one pair, not of an ensemble"));
-  CHECK(contains(refused("--causes 'patch lid'"), "--causes 'patch lid': there is no patch of that name; give --patch"));
+  CHECK(
+      contains(refused("--causes 'patch lid'"), "--causes 'patch lid': there is no patch of that name; give --patch"));
   CHECK(contains(in.run("ensemble --from out.h5 -o again --causes 'patch 1'").err,
                  "--causes solves the frames again, and --from has none of their files: repeat the command that mapped "
                  "them with --resume and --causes"));

@@ -113,7 +113,8 @@ TEST_CASE("what is printed and does not arrive is an error; a reader that goes a
     CHECK(std::filesystem::file_size(in.folder.file("s.vtp")) > 1000);
     CHECK(status_of(surface + " -q", ">/dev/full") == 0);
     // A verdict that nobody read does not count.
-    CHECK(status_of("compare a.pqr a.pqr -q --potential coulomb --grid-spacing 2 --device cpu -o c", ">/dev/full") == 1);
+    CHECK(status_of("compare a.pqr a.pqr -q --potential coulomb --grid-spacing 2 --device cpu -o c", ">/dev/full") ==
+          1);
   }
   CHECK(status_of(surface, "| true") == 0);
   CHECK(read_file(in.folder.file("err")).empty());

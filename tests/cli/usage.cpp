@@ -33,7 +33,8 @@ TEST_CASE("help and version exit 0 and say what there is") {
 
 TEST_CASE("help starts the program once, and a computation a second time, so that its threads sleep while they wait") {
   const auto n_starts = [](const std::string& arguments) {
-    const std::string statistics = run_espdiff(arguments, "unset OMP_WAIT_POLICY GOMP_SPINCOUNT; LD_DEBUG=statistics").err;
+    const std::string statistics =
+        run_espdiff(arguments, "unset OMP_WAIT_POLICY GOMP_SPINCOUNT; LD_DEBUG=statistics").err;
     int n = 0;
     for (std::size_t at = 0; (at = statistics.find("total startup time", at)) != std::string::npos; ++at) ++n;
     return n;

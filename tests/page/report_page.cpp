@@ -86,6 +86,19 @@ TEST_CASE("a page has the backbones, or says why not") {
   CHECK(contains(without.at("molecule_because").get<std::string>(), "a.pqr"));
 }
 
+TEST_CASE("a page has the causes of each reading, in words and by residue") {
+  if (!has_three()) return;
+  const SmallResult result;
+  REQUIRE(run_espdiff(result.folder.file("a.pqr") + " " + result.folder.file("b.pqr") +
+                      " --potential coulomb --region //A/2 --causes region -q --overwrite -o " + result.prefix)
+              .status == 0);
+  const auto table = nlohmann::json::parse(element(report_page(result.prefix, ""), "record")).at("tables").at(0);
+  CHECK(table.at("title") == "Causes of the difference, region");
+  CHECK(contains(table.at("help").get<std::string>(), "the difference is "));
+  CHECK(table.at("rows").size() > 1);
+  CHECK(table.at("rows").at(0).size() == table.at("columns").size());
+}
+
 TEST_CASE("names in files are texts to the page") {
   if (!has_three()) return;
   const SmallResult result("</s");

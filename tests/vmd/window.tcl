@@ -143,6 +143,10 @@ test "a click on a point goes to its frame; keys too; VMD's frame is marked" {
 }
 
 test "a click on the map of residues goes to the frame, and highlights the residue there" {
+    # High enough for more than a pixel for each of 214 residues.
+    set size [wm geometry $window]
+    wm geometry $window 690x1000
+    update
     set lines $::espdiff::gui::form(trajectory,metric)
     form trajectory,metric [lindex [[widget trajectory,metric] cget -values] end]
     event generate [widget trajectory,metric] <<ComboboxSelected>>
@@ -151,7 +155,7 @@ test "a click on the map of residues goes to the frame, and highlights the resid
     set residues [dict get $::espdiff::gui::residue_table residues]
     set place [lsearch -glob $residues "*LYS 50"]
     event generate [widget trajectory,plot] <ButtonPress-1> -x [expr {int([::espdiff::gui::frame_x 3])}] \
-        -y [expr {int([::espdiff::gui::residue_y $place])}]
+        -y [expr {round([::espdiff::gui::residue_y $place])}]
     update
     check_equal frame [molinfo $adk get frame] 90
     check_equal "a representation more" [molinfo $adk get numreps] [expr {$reps + 1}]
@@ -164,6 +168,7 @@ test "a click on the map of residues goes to the frame, and highlights the resid
     update
     ::espdiff::gui::move_point -2
     press trajectory,residues
+    wm geometry $window $size
 }
 
 test "that frame compared and drawn" {
