@@ -268,7 +268,7 @@ int compare_verb(const CompareArguments& a, const Context& context) {
                       a.residue_quantity.empty() ? usual_residue_quantity(result) : a.residue_quantity);
   }
   write_compare(a.output, source_molecule, target_molecule, result, options, provenance, comparison.kept, pdb.get());
-  if (!a.picture.empty()) draw_result(a.output, a.picture);
+  if (!a.picture.empty()) draw_result(a.output, a.picture, result.has_potential);
   context.progress->report("write", 1.0);
   if (a.quiet) {
     print_verdict_line(std::cout, result);

@@ -24,8 +24,10 @@ void require_drawing(const std::string& picture) {
   if (!problem.empty()) throw DeviceError(picture + ": " + problem);
 }
 
-void draw_result(const std::string& prefix, const std::string& picture) {
-  for (const std::string& note : render_surface(prefix + ".vtp", picture, Scene()))
+void draw_result(const std::string& prefix, const std::string& picture, bool has_potential) {
+  Scene scene;
+  if (!has_potential) scene.array = RenderArray::kDisplacement;
+  for (const std::string& note : render_surface(prefix + ".vtp", picture, scene))
     std::fprintf(stderr, "espdiff: note: %s\n", printable(note).c_str());
 }
 
@@ -36,7 +38,7 @@ void require_drawing(const std::string& picture) {
                    ": this build has no renderer: VTK 9 was not found when it was configured (Debian: libvtk9-dev)");
 }
 
-void draw_result(const std::string&, const std::string& picture) { require_drawing(picture); }
+void draw_result(const std::string&, const std::string& picture, bool) { require_drawing(picture); }
 
 #endif
 
