@@ -629,7 +629,8 @@ TEST_CASE("models of ubiquitin: a matrix through a template is near the exact on
   const auto json = nlohmann::json::parse(read_file(in.folder.file("ubq.json")));
   const auto& agreement = json["template"]["exact"]["agreement"]["mean_abs_difference"];
   CHECK(agreement["n"] == 6);
-  CHECK(agreement["largest_difference"].get<double>() < 0.15 * agreement["exact_mean"].get<double>());
+  // The pairs by themselves count trusted area, the template all that has a counterpart.
+  CHECK(agreement["largest_difference"].get<double>() < 0.2 * agreement["exact_mean"].get<double>());
   CHECK(json["template"]["states"].size() == 3);
   CHECK(json["template"]["states"][1]["rmsd_A"].get<double>() == doctest::Approx(0).scale(1));
   CHECK(json["template"]["options"]["max_step_A"] == 0.7);
