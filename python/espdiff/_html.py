@@ -79,7 +79,9 @@ def matrix(result):
             for i, label in enumerate(labels)]
     off = ~np.eye(len(labels), dtype=bool)
     n_bad = int((~trusted[off]).sum())
-    words = (f"NOT TRUSTWORTHY: {n_bad} of {off.sum()} pairs, marked *" if n_bad else f"TRUSTWORTHY: all {off.sum()} pairs")
+    least = np.minimum(result["trusted_source"], result["trusted_target"])[off & trusted]
+    on = f" on {100 * np.nanmin(least):.0f} % of their surfaces and more" if least.size and np.nanmin(least) < 0.95 else ""
+    words = (f"NOT TRUSTWORTHY: {n_bad} of {off.sum()} pairs, marked *" if n_bad else f"TRUSTWORTHY: all {off.sum()} pairs{on}")
     return (f"<div><strong>espdiff</strong> matrix of {len(labels)} states{_verdict(words)}"
             f"<p>{_escaped(metric)}; row: source, column: target</p>{_table(rows, ['', *labels])}</div>")
 

@@ -39,6 +39,7 @@ class Options(TypedDict, total=False):
     offset: str
     temperature: float
     trust_maps: bool
+    require: float
     grid_spacing: float
     radius_scale: float
     isovalue: float

@@ -202,7 +202,7 @@ double total_seconds(const CompareResult& result) {
 
 /// Tries what may help until an answer can be trusted, where a trial takes seconds, and prints the command.
 void print_next(const CompareArguments& a, const Comparison& first, Engine& engine, const Context& context) {
-  constexpr double kLongestTrial_s = 30, kMostTime_s = 60;
+  constexpr double kLongestTrialSeconds = 30, kMostSeconds = 60;
   const auto begun = std::chrono::steady_clock::now();
   std::vector<std::string> given;
   for (const auto& setting : a.settings) given.push_back(setting.first);
@@ -212,7 +212,7 @@ void print_next(const CompareArguments& a, const Comparison& first, Engine& engi
   for (const WayOn& way :
        ways_on(first.result, first.source.state.molecule, first.target.state.molecule, given, prepared)) {
     const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    if (a.no_trials || once_s > kLongestTrial_s || spent_s + once_s > kMostTime_s) break;
+    if (a.no_trials || once_s > kLongestTrialSeconds || spent_s + once_s > kMostSeconds) break;
     const CompareArguments other = changed(a, way);
     try {
       Provenance unused;

@@ -21,9 +21,7 @@ def sums(result, numbers):
     area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
     number = np.asarray(result.residues["number"])[result.residue_index]
     inside = (np.isin(number, numbers) & (result.residue_index >= 0))[triangles].sum(axis=1) >= 2
-    inside &= result.corrupt == 0
-    if len(result.unmatched):
-        inside &= result.unmatched == 0
+    inside &= result.why == 0  # trusted
     weight, value = np.repeat(area[inside] / 3, 3), result.difference[triangles[inside]].ravel().astype(float)
     known = np.isfinite(value)
     return np.average(value[known], weights=weight[known]), np.average(abs(value[known]), weights=weight[known]), area[inside].sum()

@@ -150,11 +150,11 @@ def test_tables(result):
 
 def test_html(result):
     text = result._repr_html_()
-    assert "TRUSTWORTHY: mean absolute difference" in text and "Mean absolute difference" in text
+    assert "TRUSTWORTHY ON 78 %: mean absolute difference" in text and "Mean absolute difference" in text
     assert text.count("data:image/png;base64,") == 2 and "kT/e: target minus source" in text
     untrusted = pickle.loads(pickle.dumps(result))
     record = untrusted._core.record
-    record["certificate"].update(trustworthy=False, reasons=["<b>slipped</b>"])
+    record["certificate"].update(trustworthy=False, verdict="NOT TRUSTWORTHY", reasons=["<b>slipped</b>"])
     untrusted._json = record
     text = untrusted._repr_html_()
     assert "NOT TRUSTWORTHY: mean" in text and "&lt;b&gt;slipped" in text and "<b>slipped" not in text
