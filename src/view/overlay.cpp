@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "view/legend.h"
+#include "view/scene_legend.h"
 #include "view/viewer.h"
 
 namespace espdiff {
@@ -74,11 +75,12 @@ void Overlay::draw_lines(const std::vector<std::string>& lines, double left, dou
 void Overlay::draw(const Scene& scene) {
   renderer_->RemoveAllViewProps();
   if (has_slider_ && scene.legend && scene.layout != Layout::kSplit) draw_slider(scene);
-  if (!lines_.empty()) draw_lines(lines_, 10, scene.height - 10);
+  const double top = legend_shares(scene).top * scene.height - 10;  // the head stays readable
+  if (!lines_.empty()) draw_lines(lines_, 10, top);
   if (!shows_help_) return;
   std::vector<std::string> help;
   for (const ViewerKey& key : viewer_keys()) help.push_back(key.keys + "  " + key.help);
-  draw_lines(help, std::max(10.0, scene.width - 520.0), scene.height - 10);
+  draw_lines(help, std::max(10.0, scene.width - 520.0), top);
 }
 
 }  // namespace espdiff
