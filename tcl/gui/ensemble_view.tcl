@@ -23,7 +23,7 @@ namespace eval ::espdiff::gui {
         tip $path.top.table "The answer as the command line prints it: replicates, noise, patches, residues, warnings"
         pack $path.top.table $path.top.draw -side right -padx {6 0}
         pack $path.top.answer -side left -fill x -expand 1
-        ttk::treeview $path.patches -columns {patch area difference interval p residues} -show headings -style Espdiff.Treeview -height 4 \
+        ttk::treeview $path.patches -columns {patch area difference interval p residues} -show headings -style Espdiff.Treeview -height 3 \
             -selectmode browse
         foreach {column title width stretch} {patch "" 30 0 area "Area (\u00c5\u00b2)" 75 0 difference Difference 80 0
             interval "95 % interval" 115 0 p p 55 0 residues Residues 160 1} {
@@ -32,7 +32,7 @@ namespace eval ::espdiff::gui {
         }
         bind $path.patches <<TreeviewSelect>> {::espdiff::gui::guard_in ensemble ::espdiff::gui::choose_patch}
         tip $path.patches "Pieces of surface whose difference is significant; a click shows one, and its mean in every frame"
-        canvas $path.plot -width 420 -height 125 -background white -highlightthickness 1 -takefocus 1 \
+        canvas $path.plot -width 420 -height 110 -background white -highlightthickness 1 -takefocus 1 \
             -highlightbackground gray80 -highlightcolor #3060c0
         ttk::label $path.point -anchor w
         bind $path.plot <Configure> {::espdiff::gui::guard_in ensemble ::espdiff::gui::draw_series}

@@ -156,7 +156,7 @@ namespace eval ::espdiff::gui {
         }
         dict set result residue "$title ([dict get $part n_residues])"
         dict set result residues [dict get $part residues]
-        set area [dict get $part area_A2 valid]
+        set area [dict get $part area_A2 trusted]
         dict set result area_A2 $area
         set sum 0.0
         foreach row $residue_rows {

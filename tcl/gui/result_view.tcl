@@ -24,7 +24,7 @@ namespace eval ::espdiff::gui {
         button $path.top.table Table... ::espdiff::gui::show_table 0
         button $path.top.view Viewer ::espdiff::gui::view_result 0
         button $path.top.export Export... ::espdiff::gui::export 0
-        button $path.top.report Report... ::espdiff::gui::report 0
+        button $path.top.report Report... ::espdiff::gui::report 2
         button $path.top.delete Delete ::espdiff::gui::delete_result 2
         tip $path.top.table "All numbers, as the command line prints them"
         tip $path.top.view "Open the result in espdiff's viewer: both maps at every pixel, cartoon, field lines,\

@@ -21,8 +21,8 @@ namespace eval ::espdiff::gui {
         return $path.view.page
     }
 
-    # The view is as high as the page, if the screen permits; the bar appears only when needed. A page is at least as high as
-    # its view, so that plots grow with the window.
+    # The view is as high as the page, but asks for no more than a small screen has; the bar appears only when needed. A page
+    # is at least as high as its view, so that plots grow with the window.
     proc fit_page {path} {
         variable fitted
         set width [winfo reqwidth $path.view.page]
@@ -30,8 +30,8 @@ namespace eval ::espdiff::gui {
         set fitted($path) [list $width $height]
         $path.view itemconfigure page -width [expr {max($width, [winfo width $path.view])}] \
             -height [expr {max($height, [winfo height $path.view])}]
-        $path.view configure -width $width -height [expr {min($height, [winfo screenheight $path] - 180)}] \
-            -scrollregion [list 0 0 $width $height]
+        set most [expr {min([winfo pixels $path 470p], [winfo screenheight $path] - 180)}]
+        $path.view configure -width $width -height [expr {min($height, $most)}] -scrollregion [list 0 0 $width $height]
         if {[winfo height $path.view] > 1 && $height > [winfo height $path.view]} {
             grid $path.bar -row 0 -column 1 -sticky ns
         } else {
