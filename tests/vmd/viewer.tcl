@@ -27,7 +27,8 @@ test "molecules and maps from memory, written and compared again by the command 
     check_close rms_difference $again [espdiff result $h rms_difference] 1e-6
 }
 
-# The horizontal place of the coloured pixels' mean, from 0 to 1, their number, and the width that they take.
+# The horizontal place of the coloured pixels' mean, from 0 to 1, their number, and the width that they take; without the
+# head with the verdict, and the legend.
 proc picture_of {path} {
     exec convert $path -resize 300x -depth 8 $path.ppm
     set channel [open $path.ppm rb]
@@ -39,7 +40,8 @@ proc picture_of {path} {
     set n 0
     set i 0
     foreach {r g b} $values {
-        if {max($r, $g, $b) - min($r, $g, $b) > 60 && $i < 0.75 * $width * $height} {
+        if {max($r, $g, $b) - min($r, $g, $b) > 60 && $i > 0.06 * $width * $height
+            && $i < 0.75 * $width * $height} {
             set sum [expr {$sum + $i % $width}]
             incr n
             lappend columns [expr {$i % $width}]
