@@ -45,10 +45,11 @@ TEST_CASE("a right pair is trustworthy by every kind of potential, computed or g
                                                       {"pme --grid 2", "vacuum, smooth part"},
                                                       {"pme --compatible", "vacuum, smooth part"}};
   const std::string source_map = folder.file("a.dx"), target_map = folder.file("b.dx");
-  for (const auto& [method, kind] : maps) {
+  for (const auto& map : maps) {
+    const char *const method = map.first, *const kind = map.second;
     CAPTURE(method);
-    for (const auto& [state, map] : {std::pair(*a, source_map), std::pair(*b, target_map)})
-      REQUIRE(run_espdiff("potential " + state + " --method " + method + " -q -o " + map).status == 0);
+    for (const auto& [state, path] : {std::pair(*a, source_map), std::pair(*b, target_map)})
+      REQUIRE(run_espdiff("potential " + state + " --method " + method + " -q -o " + path).status == 0);
     const Json json = trusted(folder, *a + " " + *b + " --source-map " + source_map + " --target-map " + target_map);
     for (const char* side : {"source", "target"}) CHECK(json["given_maps"][side]["kind"] == kind);
     CHECK((json["potential_unit"] == "kT/e in vacuum") == (std::string(kind) != "salt water"));
