@@ -16,7 +16,7 @@ row 0 >a.pqr
 row 0.1 >b.pqr
 { for s in 0 0.05 0.1; do echo MODEL; row "$s"; echo ENDMDL; done; } >frames.pqr
 inputs="$(ls)"
-compare=(compare a.pqr b.pqr --grid-spacing 2 --potential coulomb --device cuda --threads 1 -q -o out)
+compare=(compare a.pqr b.pqr --grid-spacing 2 --potential coulomb --device cuda --threads 1 -q -o out --exit-zero --overwrite)
 
 failures=0
 wrong() { echo "FAILED: $*"; failures=$((failures + 1)); }
