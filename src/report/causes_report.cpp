@@ -96,7 +96,8 @@ std::string causes_in_words(const Causes& causes, const CausesOfReading& reading
   double rest = 0;
   std::size_t n = 0, n_rest = 0;
   for (const KindSum& sum : sums_by_kind(causes, reading)) {
-    const bool is_said = n < kMostKinds && !number.is_zero(sum.difference);
+    // What the substitutions make is what a reader asks for, also where it is nothing.
+    const bool is_said = sum.kind == CauseKind::kSubstituted || (n < kMostKinds && !number.is_zero(sum.difference));
     if (!is_said) {
       rest += sum.difference;
       n_rest += sum.contributions.size();
