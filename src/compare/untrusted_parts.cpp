@@ -3,6 +3,7 @@
 #include <array>
 #include <numeric>
 
+#include "align/chain_links.h"
 #include "base/residue_label.h"
 #include "compare/result.h"
 #include "compare/short_numbers.h"
@@ -53,15 +54,17 @@ std::vector<AreaByWhy> areas_by_residue(const MappedSurface& s, std::size_t n_re
   return areas;
 }
 
-/// Runs of residues of one chain whose surface is not trusted by more than half.
+/// Runs of residues of one chain whose surface is not trusted by more than half. A ligand is no part of a run.
 std::vector<UntrustedPart> runs_of(const std::vector<AreaByWhy>& areas, const std::vector<ResidueRow>& rows,
                                    const Molecule& source) {
+  const ResidueView view(source);
   std::vector<UntrustedPart> parts;
   for (const ResidueRow& row : rows) {
     const AreaByWhy& area = areas[row.residue];
     if (!(untrusted(area) > area[0])) continue;
     const bool goes_on = !parts.empty() && row.residue - parts.back().last <= kMostBetween + 1 &&
-                         source.residues[parts.back().last].chain == source.residues[row.residue].chain;
+                         source.residues[parts.back().last].chain == source.residues[row.residue].chain &&
+                         trace_atom(view, parts.back().last) >= 0 && trace_atom(view, row.residue) >= 0;
     if (!goes_on) parts.push_back({row.residue, row.residue, {}});
     parts.back().last = row.residue;
     for (std::size_t k = 0; k < area.size(); ++k) parts.back().area[k] += area[k];

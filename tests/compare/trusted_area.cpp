@@ -48,7 +48,15 @@ std::vector<std::uint8_t> codes(const std::vector<Why>& reasons) {
 
 espdiff::Molecule chain_of(std::size_t n) {
   espdiff::Molecule molecule;
-  for (std::size_t r = 0; r < n; ++r) molecule.residues.push_back({"ALA", "A", static_cast<std::int32_t>(r + 1), ' '});
+  for (std::size_t r = 0; r < n; ++r) {
+    molecule.residues.push_back({"ALA", "A", static_cast<std::int32_t>(r + 1), ' '});
+    espdiff::Atom atom;
+    atom.name = "CA";
+    atom.element = "C";
+    atom.residue = static_cast<std::int32_t>(r);
+    molecule.atoms.push_back(atom);
+    molecule.positions.push_back({0, 0, 10 * static_cast<double>(r)});
+  }
   return molecule;
 }
 
@@ -149,6 +157,13 @@ TEST_CASE("parts are named by runs of residues, largest first") {
   CHECK(espdiff::untrusted_parts(s, rows, chain_of(9)) ==
         std::vector<std::string>{"ALA 5 to ALA 8 of chain A (96 A^2): slipped off its atoms",
                                  "ALA 2 of chain A (32 A^2): unmatched"});
+  espdiff::Molecule with_ligand = chain_of(9);
+  with_ligand.residues[7].name = "NAD";
+  with_ligand.atoms[7].name = "PA";
+  CHECK(espdiff::untrusted_parts(s, rows, with_ligand) ==
+        std::vector<std::string>{"ALA 5 to ALA 7 of chain A (64 A^2): slipped off its atoms",
+                                 "ALA 2 of chain A (32 A^2): unmatched",
+                                 "NAD 8 of chain A (32 A^2): on another residue"});
 }
 
 TEST_CASE("the whole surface is estimated from the residues' own surfaces, and bounded by the largest difference") {
