@@ -68,8 +68,9 @@ TEST_CASE("read_mmcif: coordinates that are no numbers are refused with line and
 }
 
 TEST_CASE("read_mmcif: bad syntax, no atoms, missing columns, missing model") {
-  CHECK(mmcif_error(kMmcifHead + "ATOM 1 N N\n").find("a.cif:3: not valid CIF: Wrong number of values in the loop") ==
-        0);
+  CHECK(mmcif_error(kMmcifHead + "ATOM 1 N N\n") ==
+        "a.cif:3: not valid CIF: the values of a loop do not fill its columns");
+  CHECK(mmcif_error("data_X\n_a.b 1\n_c.d\n") == "a.cif:3: not valid CIF: _c.d has no value");
   CHECK(
       mmcif_error("data_X\n_cell.length_a 1\n") ==
       "a.cif: mmCIF without the column _atom_site.id (no atoms at all); give a macromolecular mmCIF with coordinates");

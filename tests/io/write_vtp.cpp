@@ -138,7 +138,7 @@ TEST_CASE("VTK reads back every point, triangle, array and text, bit by bit") {
     vtkIdList* corners = surface->GetCell(v)->GetPointIds();
     for (vtkIdType c = 0; c < 3; ++c) CHECK(corners->GetId(c) == shape.triangles[i][static_cast<std::size_t>(c)]);
   }
-  CHECK(std::string(points->GetArray("exact")->GetClassName()) == "vtkDoubleArray");
+  CHECK(points->GetArray("exact")->GetDataType() == VTK_DOUBLE);
   CHECK(std::string(points->GetScalars()->GetName()) == "potential");
   CHECK(std::string(points->GetNormals()->GetName()) == "normal");
   CHECK(text_of(surface, "potential_unit") == "kT/e");
