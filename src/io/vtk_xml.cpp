@@ -205,7 +205,9 @@ void VtkXmlFile::read_ascii(const XmlElement& array, std::size_t n,
     }
     if (!fits(value, type))
       fail_here("value " + std::to_string(i + 1) + " of " + array_in_words(array) + " is no " + type_name);
-    take(i, value);
+    // Written with as few digits as identify a float, the number is that float, not the nearest double.
+    const bool is_float = type.kind == NumberKind::kReal && type.n_bytes == 4;
+    take(i, is_float ? static_cast<double>(static_cast<float>(value)) : value);
   }
   if (!cursor.at_end()) {
     cursor.next_word();

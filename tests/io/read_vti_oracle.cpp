@@ -169,7 +169,6 @@ TEST_CASE("read_vtp: surfaces of every encoding are read as VTK reads them") {
     CAPTURE(encoding);
     REQUIRE(writer->Write() == 1);
     const VtpContent read = read_vtp(path);
-    // VTK 9.3 writes rounded numbers as text, so that the file counts, not what was written into it.
     vtkNew<vtkXMLPolyDataReader> reader;
     reader->SetFileName(path.c_str());
     reader->Update();
