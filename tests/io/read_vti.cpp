@@ -1,4 +1,4 @@
-// read_vti.cpp: VTI maps in all encodings, and damaged ones, which are refused in one line.
+// read_vti.cpp: VTI maps in all encodings, and damaged ones, which are refused in one line; numbers of a VTP.
 #include <fcntl.h>
 #include <unistd.h>
 #include <cstring>
@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "io/read_grid.h"
 #include "io/read_vti.h"
+#include "io/read_vtp.h"
 #include "support/test_data.h"
 #include "support/text.h"
 
@@ -125,6 +126,24 @@ TEST_CASE("read_vti: ascii values of any number type") {
     CHECK(outcome.grid.lattice.step[2] == Vec3d{0, 0, 2});
     CHECK(outcome.grid.unit == PotentialUnit::kUnknown);
   }
+}
+
+TEST_CASE("read_vtp: text of type Float32 is a float, that of Float64 a double") {
+  const ScratchFolder scratch;
+  const std::string path = scratch.write(
+      "a.vtp",
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"><PolyData>\n"
+      "<Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><PointData>\n"
+      "<DataArray type=\"Float64\" Name=\"wide\" format=\"ascii\">0.1 0.2 0.3</DataArray></PointData>\n"
+      "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 0.1 0 0 0 0.1 "
+      "0</DataArray></Points>\n"
+      "<Polys><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray>\n"
+      "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">3</DataArray></Polys>\n"
+      "</Piece></PolyData></VTKFile>\n");
+  const VtpContent read = read_vtp(path);
+  REQUIRE(read.positions.size() == 3);
+  CHECK(read.positions[1].x == static_cast<double>(0.1F));
+  CHECK(find_array(read.point_arrays, "wide")->values[0] == 0.1);
 }
 
 TEST_CASE("read_vti: inline base64 and appended raw values") {

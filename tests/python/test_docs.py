@@ -47,7 +47,7 @@ def test_a_pair(tmp_path, monkeypatch, capsys):
     assert sorted(path.name for path in tmp_path.glob("ldh*")) == [
         "ldh.json", "ldh.residues.csv", "ldh.source.pqr", "ldh.target.pqr", "ldh.vtp"]
     # The figures that the page and README print; PROPKA of Debian 13 protonates a histidine otherwise: 0.3458.
-    assert variables["r"].metrics["mean_abs_difference"] == pytest.approx(0.3459, abs=1.5e-4)
+    assert f"{variables['r'].metrics['mean_abs_difference']:.4f}" in ("0.3459", "0.3458")
     assert variables["r"].trustworthy and variables["r"].unit == "kT/e"
 
 
