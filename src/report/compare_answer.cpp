@@ -58,6 +58,7 @@ void print_brief_part(std::ostream& out, const std::string& title, const Json& j
   if (whole.has_potential()) text = "signed " + formatted(signed_mean, part.value_of(signed_mean)) + "; " + text;
   print_brief_number(out, title, number_with_unit(mean, part.value_of(mean), whole.text("/potential_unit")), text);
   for (const std::string& reason : part.texts("/certificate/reasons")) print_item(out, reason, 4);
+  if (part.has("/placement")) print_item(out, part.text("/placement/in_words"), 4);
 }
 
 void print_main_numbers(std::ostream& out, const Record& record) {
