@@ -195,6 +195,15 @@ TEST_CASE("read_vti: arrays by name, by being the scalars, by being the only one
   CHECK(vectors.message == "a.vti: point array 'v' has 2 components; one number a point was expected");
 }
 
+TEST_CASE("read_vti: an array's name that is of another quantity than a potential is kept") {
+  const auto title = [](const std::string& name) {
+    return attempt(kImage + point_data(ascii_array("Float32", name, kAscii)) + kEnd).grid.contradicting_title;
+  };
+  CHECK(title("charge_density") == "charge_density");
+  CHECK(title("potential").empty());
+  CHECK(title("a").empty());
+}
+
 TEST_CASE("list_vti_scalars: names of arrays with one number a point, in file order, whatever their values") {
   const ScratchFolder scratch;
   const std::string scalar_b = ascii_array("Float32", "b", kAscii);
