@@ -108,7 +108,7 @@ TEST_CASE("read_dx: a title of another quantity is kept, in the words of APBS, V
   CHECK(title("# CHARGE DISTRIBUTION (e)\n") == "CHARGE DISTRIBUTION (e)");
   CHECK(title("# LAPLACIAN OF POTENTIAL (kT/e/A^2)\n") == "LAPLACIAN OF POTENTIAL (kT/e/A^2)");
   CHECK(title("# X-SHIFTED DIELECTRIC MAP\n") == "X-SHIFTED DIELECTRIC MAP");
-  CHECK(title("", "\nobject \"occupancy (protein)\" class field\n") == "\"occupancy (protein)\" class field");
+  CHECK(title("", "\nobject \"occupancy (protein)\" class field\n") == "object \"occupancy (protein)\" class field");
   CHECK(title("# Electrostatic pot from Total SCF Density\n").empty());
   CHECK(title("# POTENTIAL (kT/e)\n# at a distance of 5 A\n").empty());
   CHECK(title("# Comment\n").empty());

@@ -72,7 +72,7 @@ TEST_CASE("read_mmcif: errors of gemmi's are told in our words, with the line") 
   CHECK(mmcif_error("data_X\n_a.b 'x\n") == head + "a value in single quotes is not closed on its line");
   CHECK(mmcif_error("data_X\n_a.b \"x\n") == head + "a value in double quotes is not closed on its line");
   CHECK(mmcif_error("data_X\n_a.b\n;x\n") ==
-        "a.cif:3: not valid CIF: a text field is not closed by a line that begins with ';'");
+        "a.cif:4: not valid CIF: a text field is not closed by a line that begins with ';'");
   CHECK(mmcif_error("data_X\nsave_ _a.b 1\n") == head + "a save frame has no name");
   CHECK(mmcif_error("data_X\nx\n") == head + "a tag with its value, or a loop, was expected");
   CHECK(mmcif_error("data_X\n_a.b 1\n_a.b 2\n") == "a.cif:3: not valid CIF: the tag '_a.b' is given twice");
