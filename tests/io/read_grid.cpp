@@ -60,6 +60,7 @@ TEST_CASE("read_grid: missing, directory, empty; an array name where there are n
   CHECK_THROWS_AS(read_grid(scratch.file("")), IoError);
   CHECK_THROWS_AS(read_grid(scratch.write("empty.dx", "")), InputError);
   const std::string path = scratch.write("a.dx", kDx);
-  CHECK(message_of([&] { read_grid(path, {"phi", ""}); }) ==
-        path + ": array 'phi' was asked for, but only VTI files have named arrays");
+  CHECK(message_of([&] {
+          read_grid(path, {"phi", ""});
+        }) == path + ": array 'phi' was asked for, but only VTI files have named arrays");
 }
