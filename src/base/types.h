@@ -81,6 +81,8 @@ struct Grid {
   bool periodic = false;
   PotentialUnit unit = PotentialUnit::kUnknown;
   std::string name;  ///< for messages: the path
+  /// What the file calls its values where that is no potential, or one in another unit than `unit`: a warning's text.
+  std::string contradicting_title;
 };
 
 using Triangle = std::array<std::uint32_t, 3>;  ///< vertex indices, counter-clockwise seen from outside

@@ -101,6 +101,15 @@ void judge_slope(const char* role, const Grid& map, const MapCheck& check, doubl
                                   option(unit_option, other))));
 }
 
+/// A title that names another quantity or unit. It refuses where nothing else can tell whether the values are right.
+Warning title_warning(const char* role, const Grid& map, bool is_checked) {
+  const std::string unit = map.unit == PotentialUnit::kUnknown ? "" : " in " + to_string(map.unit);
+  const Message text = the_map(role) + " (" + map.name + ") calls itself '" + map.contradicting_title +
+                       "', but is taken as a potential" + unit;
+  if (is_checked) return {text + "; make sure of it", false};
+  return refuse(text + ", which cannot be checked; give the map of the potential");
+}
+
 bool same_map(const Grid& a, const Grid& b) {
   const Lattice &p = a.lattice, &q = b.lattice;
   const auto near = [](const Vec3d& u, const Vec3d& v) { return norm(u - v) < 1e-6; };
@@ -121,9 +130,10 @@ std::vector<Warning> map_warnings(const char* role, const Grid& map, const MapRe
                                   double temperature_K, std::shared_ptr<const MapCheck>& result) {
   result.reset();
   const std::optional<MapCheck> check = references.check(map);
-  if (!check) return {};
-  result = std::make_shared<const MapCheck>(*check);
   std::vector<Warning> warnings;
+  if (!map.contradicting_title.empty()) warnings.push_back(title_warning(role, map, check.has_value()));
+  if (!check) return warnings;
+  result = std::make_shared<const MapCheck>(*check);
   const double correlation = check->best().correlation;
   if (correlation <= -kLeastMapCorrelation) {
     warnings.push_back(refuse(the_map(role) + " (" + map.name + ") has its sign turned: near the surface it is " +

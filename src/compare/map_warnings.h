@@ -13,7 +13,7 @@ class MapReferences;
 
 /// Checks a given map against the potentials of its molecule's charges: its correlation with the best of them, and the
 /// slope, which tells the unit. A map of another molecule or place, of another unit, turned in sign, or of another
-/// quantity refuses; one without a unit, or as large as another unit's, is a warning.
+/// quantity refuses; one whose title says otherwise, one without a unit, or as large as another unit's, is a warning.
 /// @param role  "source" or "target"
 /// @param check receives the regression; null where the map cannot be checked, such as without charges
 std::vector<Warning> map_warnings(const char* role, const Grid& map, const MapReferences& references,

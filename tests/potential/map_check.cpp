@@ -159,8 +159,7 @@ TEST_CASE("a map of another unit, sign, place, molecule or quantity is named") {
   CHECK(has(a.check(times(right, -1)), "has its sign turned"));
   Grid shifted = right;
   shifted.lattice.origin += Vec3d{3, 0, 0};
-  Grid nothing = times(right, 0);
-  nothing.name = "a.dx (which calls itself '# CHARGE DENSITY (e/A^3)')";
+  const Grid nothing = times(right, 0);
   for (const Grid& wrong : {shifted, b.map(PotentialMethod::kPoissonBoltzmann), nothing}) {
     const Checked c = a.check(wrong);
     CAPTURE(c.text);
@@ -169,7 +168,25 @@ TEST_CASE("a map of another unit, sign, place, molecule or quantity is named") {
     CHECK(has(c, "(limit 0.93)"));
     CHECK(has(c, "trust-maps 1 takes it as it is"));
   }
-  CHECK(has(a.check(nothing), "(a.dx (which calls itself '# CHARGE DENSITY (e/A^3)'))"));
+}
+
+TEST_CASE("a map whose title is of another quantity or unit is named, and refused where its values cannot be checked") {
+  if (!can_run()) return;
+  Molecule few = ball(1);
+  const Reference whole(few);
+  Grid map = whole.map(PotentialMethod::kPoissonBoltzmann);
+  map.name = "a.dx";
+  map.contradicting_title = "CHARGE DENSITY (e/A^3)";
+  const Checked checked = whole.check(map);
+  CHECK_FALSE(checked.refuses);
+  CHECK_MESSAGE(has(checked,
+                    "the map of the source (a.dx) calls itself 'CHARGE DENSITY (e/A^3)', but is taken as a "
+                    "potential in kT/e; make sure of it"),
+                checked.text);
+  for (std::size_t i = 60; i < few.size(); ++i) few.charges[i] = 0;
+  const Checked unchecked = Reference(few).check(map);
+  CHECK(unchecked.refuses);
+  CHECK_MESSAGE(has(unchecked, "which cannot be checked; give the map of the potential"), unchecked.text);
 }
 
 TEST_CASE("a molecule without enough charges, and a map that misses it, are not checked") {
