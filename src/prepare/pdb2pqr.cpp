@@ -553,7 +553,7 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   prepared.molecule.left_out = molecule.left_out;
   prepared.molecule.left_out.insert(prepared.molecule.left_out.end(), groups.additives.begin(), groups.additives.end());
   done.groups = std::move(groups.lines);
-  done.warnings = std::move(groups.warnings);
+  done.warnings.insert(done.warnings.end(), groups.warnings.begin(), groups.warnings.end());
   if (with_propka && done.propka && n_seen > 0)
     done.notes.push_back("PROPKA saw " + std::to_string(n_seen) + (n_seen == 1 ? " group" : " groups") +
                          " beside the chains that the molecule leaves out");
