@@ -47,7 +47,7 @@ bool is_proton(const Atom& atom) { return atom.element == "H" || atom.element ==
 std::optional<std::size_t> atom_named(const Molecule& molecule, const std::vector<std::size_t>& atoms,
                                       std::string_view name) {
   for (const std::size_t i : atoms) {
-    if (molecule.atoms[i].name == name) return i;
+    if (normalized_atom_name(molecule.atoms[i].name) == name) return i;
   }
   return std::nullopt;
 }
@@ -307,7 +307,7 @@ Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, 
 
 Molecule with_known_residues(const Molecule& molecule, const std::vector<GroupSource>& sources) {
   static const std::set<std::string_view> glycine = {"N", "CA", "C", "O", "OXT"};
-  static const std::set<std::string_view> nucleotide = {"P",   "OP1", "OP2", "O1P", "O2P", "O5'", "C5'", "C4'",
+  static const std::set<std::string_view> nucleotide = {"P",   "OP1", "OP2", "O5'", "C5'", "C4'",
                                                         "O4'", "C3'", "O3'", "C2'", "O2'", "C1'", "N1",  "C2",
                                                         "N3",  "C4",  "C5",  "C6",  "N7",  "C8",  "N9"};
   const auto atoms = atoms_of_residues(molecule);
@@ -323,7 +323,7 @@ Molecule with_known_residues(const Molecule& molecule, const std::vector<GroupSo
                                           : "GLY";
     for (const std::size_t i : atoms[r]) {
       const Atom& atom = molecule.atoms[i];
-      keep[i] = is_modified ? parent.count(atom.name) > 0 : !is_phosphate_atom(atom) && !is_proton(atom);
+      keep[i] = is_modified ? parent.count(normalized_atom_name(atom.name)) > 0 : !is_phosphate_atom(atom) && !is_proton(atom);
       known.atoms[i].hetero = false;
     }
   }
