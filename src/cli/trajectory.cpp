@@ -172,6 +172,7 @@ int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
   if (summary.n_skipped > 0)
     std::cout << formatted("errors         %zu rows have one instead of numbers\n", summary.n_skipped);
   std::cout << formatted("time           %.1f s\n", s);
+  if (!a.picture.empty()) std::cout << "written        " << a.output << ", " << a.picture << '\n';
   return 0;
 }
 
