@@ -123,6 +123,23 @@ TEST_CASE("next: a trajectory that only VMD's readers read is handed to Python, 
     CHECK(contains(refused.err, "\nnext: python3 -m espdiff trajectory " + folder.file("a.pqr")));
 }
 
+TEST_CASE("trajectory: PSF and DCD without VMD, and the plot with the table where its output is named OUT.png") {
+  const auto psf = real_input("traj_adk/adk.psf"), dcd = real_input("traj_adk/adk_dims.dcd");
+  if (!psf || !dcd) return;
+  const ScratchFolder folder;
+  const Outcome outcome = run_espdiff("trajectory " + *psf + " " + *dcd + " --frames 0:40:60 --potential none" +
+                                          " --grid-spacing 2 --device cpu -o " + folder.file("t.png"),
+                                      "PATH=/usr/bin:/bin VMDDIR=");
+  if (contains(outcome.err, "gnuplot, which is not installed")) return;
+  CHECK_MESSAGE(outcome.status == 0, outcome.err);
+  CHECK(contains(outcome.out, "written        " + folder.file("t.csv") + ", " + folder.file("t.png")));
+  CHECK(n_lines(read_file(folder.file("t.csv"))) > 2);
+  CHECK(read_file(folder.file("t.png")).substr(1, 3) == "PNG");
+  const Outcome again = run_espdiff("trajectory " + *psf + " " + *dcd + " -o " + folder.file("t.png"), "VMDDIR=");
+  CHECK(again.status != 0);
+  CHECK(contains(again.err, "overwrite"));
+}
+
 TEST_CASE("next: what PDB2PQR cannot prepare is compared by its shapes") {
   const auto path = real_input("t4l/3lzm_from_bcif.pdb");
   if (!path || !has_pdb2pqr()) return;
@@ -165,7 +182,7 @@ TEST_CASE("next: potential and prepare keep files that are there, and replace th
   const ScratchFolder folder;
   const std::string pqr = folder.write("a.pqr", row_of_atoms(12));
   for (const std::string& run :
-       {"potential " + pqr + " --method coulomb --grid-spacing 2 --device cpu -q -o " + folder.file("a.dx"),
+       {"potential " + pqr + " --device cpu -q -o " + folder.file("a.dx"),
         "prepare " + pqr + " -q -o " + folder.file("b.pqr")}) {
     const Outcome first = run_espdiff(run);
     REQUIRE_MESSAGE(first.status == 0, first.err);
