@@ -266,11 +266,10 @@ Verb add_potential(CLI::App& app) {
   add_device_options(*parser, a->device);
   parser->add_flag("--overwrite", a->overwrite, "Replace files of these names, if there are any");
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
-  set_help(
-      *parser,
-      {"--output --method --select --ph --ligand --ionic-strength --pb-spacing --align --variance --overwrite --threads --quiet",
-       {"espdiff potential entry.pdb --select '//A;polymer' --method pb -o entry.dx",
-        "espdiff potential frames.pqr --align ca --variance variance.dx -o mean.dx"}});
+  set_help(*parser, {"--output --method --select --ph --ligand --ionic-strength --pb-spacing --align --variance "
+                     "--overwrite --threads --quiet",
+                     {"espdiff potential entry.pdb --select '//A;polymer' --method pb -o entry.dx",
+                      "espdiff potential frames.pqr --align ca --variance variance.dx -o mean.dx"}});
   return {parser, [a](const Context& context) { return potential_verb(*a, context); }};
 }
 

@@ -193,8 +193,11 @@ Verb add_trajectory(CLI::App& app) {
       ->add_option("SOURCE", a->source, "Structure that each frame is compared with: PQR, PDB or mmCIF; or a topology")
       ->required();
   parser->add_option("FRAMES", a->targets, "Structure files whose models are the frames, or trajectories")->required();
-  parser->add_option("-o,--output,--csv", a->output, "CSV file that gets a row for each frame; OUT.png or OUT.svg "
-                                                     "draws the plot, too, beside OUT.csv")->required();
+  parser
+      ->add_option("-o,--output,--csv", a->output,
+                   "CSV file that gets a row for each frame; OUT.png or OUT.svg "
+                   "draws the plot, too, beside OUT.csv")
+      ->required();
   add_run_options(*parser, *a);
   add_map_options(*parser, a->maps);
   add_structure_options(*parser, a->structure);

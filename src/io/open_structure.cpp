@@ -30,7 +30,8 @@ bool is_psf_name(const std::string& path) {
 std::string without_plugins(const std::string& path) {
   if (!frame_reader_remedy().empty()) return frame_reader_remedy();
   return "; without VMD, Python's espdiff reads it by MDAnalysis (in its repository: pip install '.[mda]'), and " +
-         std::string(is_dcd_name(path) ? "DCD needs its atoms from a PSF, PDB or PQR" : "DCD and PSF are read without either");
+         std::string(is_dcd_name(path) ? "DCD needs its atoms from a PSF, PDB or PQR"
+                                       : "DCD and PSF are read without either");
 }
 
 }  // namespace

@@ -157,14 +157,14 @@ void charge_other_ligand(Groups& groups, Molecule& group, const Molecule& molecu
   group = std::move(ligand.molecule);
   const bool agrees = agrees_with_formula(groups, molecule, group, ligand.net_charge, false);
   const std::size_t n_dropped = drop_hydrogens_at_bonds(group, n_given, molecule, residue);
-  const std::string label = residue_label(group.residues.front()), charge = in_elementary_charges(std::round(ligand.net_charge));
-  groups.lines.push_back(label + ": " + charge + ", " + std::to_string(ligand.n_hydrogens_added - n_dropped) +
-                         " hydrogens added" +
-                         (ligand.n_hydrogens_replaced == 0
-                              ? std::string()
-                              : " for the file's " + std::to_string(ligand.n_hydrogens_replaced)) +
-                         ", by Open Babel (Gasteiger's charges, pH " + formatted("%g", ph) +
-                         (agrees ? "; bonds agree with the file's formula)" : ")"));
+  const std::string label = residue_label(group.residues.front()),
+                    charge = in_elementary_charges(std::round(ligand.net_charge));
+  groups.lines.push_back(
+      label + ": " + charge + ", " + std::to_string(ligand.n_hydrogens_added - n_dropped) + " hydrogens added" +
+      (ligand.n_hydrogens_replaced == 0 ? std::string()
+                                        : " for the file's " + std::to_string(ligand.n_hydrogens_replaced)) +
+      ", by Open Babel (Gasteiger's charges, pH " + formatted("%g", ph) +
+      (agrees ? "; bonds agree with the file's formula)" : ")"));
   const std::optional<int> usual = charge_of_group(group.residues.front().name);
   // Gasteiger's charges of phosphates do not sum up to the whole number.
   const double whole = usual ? *usual : std::round(ligand.net_charge);
@@ -217,8 +217,7 @@ std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vect
   for (std::size_t r = 0; r < kinds.size(); ++r) {
     const std::string& name = molecule.residues[r].name;
     if (atoms[r].empty() || ligand_of[r] >= 0 || caps.count(name) > 0) continue;
-    if (kinds[r] == ResidueKind::kAminoAcid)
-      sources[r] = amino_acid_source(molecule, r, atoms[r], has_open_babel);
+    if (kinds[r] == ResidueKind::kAminoAcid) sources[r] = amino_acid_source(molecule, r, atoms[r], has_open_babel);
     if (kinds[r] == ResidueKind::kNucleotide) sources[r] = nucleotide_source(molecule, r, atoms, has_open_babel);
     if (kinds[r] != ResidueKind::kOther) continue;
     if (is_additive(name)) {

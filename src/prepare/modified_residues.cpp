@@ -138,8 +138,8 @@ void drop_end_phosphates(Molecule& molecule, Preparation& preparation) {
   }
   if (ends.empty()) return;
   molecule = keep_atoms(molecule, keep);
-  preparation.warnings.push_back("the phosphate at the 5' end was left out (-2 e), since no force field of PDB2PQR has it: " +
-                                 ends);
+  preparation.warnings.push_back(
+      "the phosphate at the 5' end was left out (-2 e), since no force field of PDB2PQR has it: " + ends);
 }
 
 /// The neighbours' atoms that stand in for the chain: C, CA and O before N, or N and CA behind C; O3' and C3' before P,
@@ -307,8 +307,8 @@ Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, 
 
 Molecule with_known_residues(const Molecule& molecule, const std::vector<GroupSource>& sources) {
   static const std::set<std::string_view> glycine = {"N", "CA", "C", "O", "OXT"};
-  static const std::set<std::string_view> nucleotide = {"P",   "OP1", "OP2", "O5'", "C5'", "C4'",
-                                                        "O4'", "C3'", "O3'", "C2'", "O2'", "C1'", "N1",  "C2",
+  static const std::set<std::string_view> nucleotide = {"P",   "OP1", "OP2", "O5'", "C5'", "C4'", "O4'",
+                                                        "C3'", "O3'", "C2'", "O2'", "C1'", "N1",  "C2",
                                                         "N3",  "C4",  "C5",  "C6",  "N7",  "C8",  "N9"};
   const auto atoms = atoms_of_residues(molecule);
   const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
@@ -323,7 +323,8 @@ Molecule with_known_residues(const Molecule& molecule, const std::vector<GroupSo
                                           : "GLY";
     for (const std::size_t i : atoms[r]) {
       const Atom& atom = molecule.atoms[i];
-      keep[i] = is_modified ? parent.count(normalized_atom_name(atom.name)) > 0 : !is_phosphate_atom(atom) && !is_proton(atom);
+      keep[i] = is_modified ? parent.count(normalized_atom_name(atom.name)) > 0
+                            : !is_phosphate_atom(atom) && !is_proton(atom);
       known.atoms[i].hetero = false;
     }
   }

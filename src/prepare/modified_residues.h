@@ -35,8 +35,8 @@ GroupSource nucleotide_source(const Molecule& molecule, std::size_t residue,
 bool is_known_amino_acid(const std::string& name);
 
 /// The residue with hydrogens and charges by Open Babel. Neighbours in the chain stand in as an acetyl group at N and a
-/// methylamide at C, or methyl groups at P and O3' of a nucleotide, which are taken away again; then each atom of the residue gets an equal share of what its charges
-/// lack of the whole number.
+/// methylamide at C, or methyl groups at P and O3' of a nucleotide, which are taken away again; then each atom of the
+/// residue gets an equal share of what its charges lack of the whole number.
 /// @param net_charge receives that number  @throws as charge_by_open_babel()
 Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, double ph, int& net_charge,
                                  const Progress& progress);

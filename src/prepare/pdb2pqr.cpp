@@ -279,18 +279,18 @@ class PlacedResidues {
  public:
   explicit PlacedResidues(const Molecule& molecule, const std::vector<Residue>& numbered) : molecule_(molecule) {
     for (std::size_t i = 0; i < molecule.size(); ++i)
-      atoms_[{numbered[static_cast<std::size_t>(molecule.atoms[i].residue)].number, molecule.atoms[i].name}].push_back(i);
+      atoms_[{numbered[static_cast<std::size_t>(molecule.atoms[i].residue)].number, molecule.atoms[i].name}].push_back(
+          i);
   }
   /// -1 where no atom lies where the original has one of its name.
   std::ptrdiff_t original(const Molecule& output, const std::vector<std::size_t>& atoms) const {
     constexpr double kSamePlace_A = 0.01;
     for (const std::size_t i : atoms) {
-      const auto found = atoms_.find({output.residues[static_cast<std::size_t>(output.atoms[i].residue)].number,
-                                      output.atoms[i].name});
+      const auto found = atoms_.find(
+          {output.residues[static_cast<std::size_t>(output.atoms[i].residue)].number, output.atoms[i].name});
       if (found == atoms_.end()) continue;
       for (const std::size_t own : found->second) {
-        if (norm(molecule_.positions[own] - output.positions[i]) < kSamePlace_A)
-          return molecule_.atoms[own].residue;
+        if (norm(molecule_.positions[own] - output.positions[i]) < kSamePlace_A) return molecule_.atoms[own].residue;
       }
     }
     return -1;

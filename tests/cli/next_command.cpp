@@ -96,7 +96,8 @@ TEST_CASE("next: ligands of both files are named at once, and made by the comman
   with_ligand.insert(with_ligand.find("\nHETATM") + 1, group);
   const std::string run = "compare " + *source + " " + folder.write("t.pdb", with_ligand) +
                           " --select //A --grid-spacing 2 --pb-spacing 1.5 --device cpu -q --exit-zero --ligands files "
-                          "-o " + folder.file("out");
+                          "-o " +
+                          folder.file("out");
   const Outcome refused = run_espdiff(run);
   CHECK(refused.status == 2);
   CHECK(contains(refused.err, "AP5 215 of chain A"));
@@ -181,9 +182,8 @@ TEST_CASE("compare -o OUT.png draws the picture with the answer, or says before 
 TEST_CASE("next: potential and prepare keep files that are there, and replace them by the command of the refusal") {
   const ScratchFolder folder;
   const std::string pqr = folder.write("a.pqr", row_of_atoms(12));
-  for (const std::string& run :
-       {"potential " + pqr + " --device cpu -q -o " + folder.file("a.dx"),
-        "prepare " + pqr + " -q -o " + folder.file("b.pqr")}) {
+  for (const std::string& run : {"potential " + pqr + " --device cpu -q -o " + folder.file("a.dx"),
+                                 "prepare " + pqr + " -q -o " + folder.file("b.pqr")}) {
     const Outcome first = run_espdiff(run);
     REQUIRE_MESSAGE(first.status == 0, first.err);
     const Outcome refused = run_espdiff(run);

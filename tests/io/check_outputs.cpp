@@ -51,8 +51,9 @@ TEST_CASE("check_outputs names both files") {
 TEST_CASE("check_outputs keeps a file that is there unless it may be replaced; a device is no file") {
   const ScratchFolder folder;
   const std::string there = folder.write("there", "x");
-  CHECK(message_of([&] { check_outputs({}, {folder.file("new"), there}, false); }) ==
-        there + " exists; overwrite replaces it, another output keeps it");
+  CHECK(message_of([&] {
+          check_outputs({}, {folder.file("new"), there}, false);
+        }) == there + " exists; overwrite replaces it, another output keeps it");
   CHECK_NOTHROW(check_outputs({}, {there}, true));
   CHECK_NOTHROW(check_outputs({}, {folder.file("new"), "", "/dev/null"}, false));
 }

@@ -156,8 +156,7 @@ TEST_CASE("charge_groups: the file's formula confirms a ligand's bonds, or a war
 TEST_CASE("charge_groups: hydrogens that Open Babel does not keep are made anew") {
   if (find_open_babel().empty()) return;
   // A hydrogen in the middle of the carbons' bond.
-  const Groups groups =
-      charged(molecule_of(ethanol("LIG", 1, 0) + hetatm(4, " H1", "LIG", 1, 0.9, 0, 0, "H")), {});
+  const Groups groups = charged(molecule_of(ethanol("LIG", 1, 0) + hetatm(4, " H1", "LIG", 1, 0.9, 0, 0, "H")), {});
   CHECK(std::fabs(sum(groups.charged.charges)) < 1e-3);
   REQUIRE(groups.charged.size() >= 9);
   CHECK(groups.charged.atoms[2].name == "O1");

@@ -208,7 +208,8 @@ TEST_CASE("a nucleotide that no force field has gets charges within its chain; b
   if (!std::filesystem::exists(path) || find_open_babel().empty() || find_pdb2pqr().empty()) return;
   const Molecule entry = read_structure(path, {});
   std::vector<bool> is_dna;
-  for (const Atom& atom : entry.atoms) is_dna.push_back(entry.residues[static_cast<std::size_t>(atom.residue)].chain == "B");
+  for (const Atom& atom : entry.atoms)
+    is_dna.push_back(entry.residues[static_cast<std::size_t>(atom.residue)].chain == "B");
   Molecule dna = keep_atoms(entry, is_dna);
   ChargeOptions options;
   options.use_cache = false;
@@ -232,7 +233,8 @@ TEST_CASE("a nucleotide that no force field has gets charges within its chain; b
 TEST_CASE("rename_residues: the phosphate at the 5' end is left out with a warning, those within the chain stay") {
   const auto nucleotide = [](int number, double x) {
     return record(1, " P", "  G", number, {x, 0, 0}, "P") + record(2, " OP3", "  G", number, {x, 1.5, 0}, "O") +
-           record(3, " O5'", "  G", number, {x + 1.6, 0, 0}, "O") + record(4, " O2'", "  G", number, {x + 3, 3, 0}, "O") +
+           record(3, " O5'", "  G", number, {x + 1.6, 0, 0}, "O") +
+           record(4, " O2'", "  G", number, {x + 3, 3, 0}, "O") +
            record(5, " O3'", "  G", number, {x + 4.4, 0, 0}, "O");
   };
   Molecule molecule = molecule_from(nucleotide(1, 0) + nucleotide(2, 6));
