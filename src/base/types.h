@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "base/chemical_formula.h"
 #include "base/units.h"
 #include "base/vector.h"
 
@@ -57,6 +59,7 @@ struct Molecule {
   ValueOrigin radii_origin = ValueOrigin::kNone;
   std::string name;  ///< for messages: the path, or VMD's molecule name
   std::vector<LeftOutResidue> left_out{};
+  std::map<std::string, ChemicalFormula> formulas{};  ///< by residue name, where the file gives them
 
   std::size_t size() const { return positions.size(); }
 };
