@@ -237,17 +237,32 @@ TEST_CASE("PMEPot's maps are trustworthy, in vacuum; two kinds are refused, and 
   CHECK(potential_label(pmepot) == "given map in vacuum, smooth part");
   CHECK(water.certificate.trustworthy);
   CHECK(potential_unit_text(water) == "kT/e");
-  const espdiff::CompareResult mixed = compared(a, b, pb_a, pme_b);
-  CHECK_FALSE(mixed.certificate.trustworthy);
-  CHECK(warns(mixed,
-              "two kinds of potential are compared: the source's is given map as in salt water, the target's "
-              "given map in vacuum, smooth part"));
+  const std::string kinds =
+      "two kinds of potential are compared: the source's is given map as in salt water, the target's "
+      "given map in vacuum, smooth part";
+  CHECK(message_of([&] { compared(a, b, pb_a, pme_b); }) ==
+        kinds +
+            "; one in vacuum is tens of times one in salt water: compute both alike, or compare them as they are by "
+            "trust-maps 1");
+  const espdiff::CompareResult mixed = compared(a, b, pb_a, pme_b, true);
+  CHECK(warns(mixed, kinds + ": one in vacuum is tens of times one in salt water"));
   CHECK_FALSE(compared(a, b, pb_a, pb_a).certificate.trustworthy);
   CHECK(warns(compared(a, b, pb_a, pb_a), "one map is given for two different states"));
   const espdiff::CompareResult trusted = compared(a, b, pb_a, pb_a, true);
   CHECK(trusted.certificate.trustworthy);
   CHECK(warns(trusted, "one map is given for two different states"));
   CHECK(compared(a, a, pb_a, pb_a).certificate.trustworthy);
+}
+
+TEST_CASE("a map of Coulomb's law in a dielectric is not taken for one in vacuum") {
+  if (!can_run()) return;
+  const Reference a(ball(1)), b(ball(2));
+  const Grid pb = b.map(PotentialMethod::kPoissonBoltzmann);
+  for (const double dielectric : {1.0, 78.0}) {
+    const Grid map = a.map(PotentialMethod::kCoulomb, [&](auto& o) { o.coulomb.dielectric = dielectric; });
+    const std::string message = message_of([&] { compared(a, b, map, pb); });
+    CHECK((message.find("two kinds of potential are compared") == 0) == (dielectric == 1));
+  }
 }
 
 TEST_SUITE_END();
