@@ -151,9 +151,11 @@ void add_run_options(CLI::App& p, EnsembleArguments& a) {
 
 void add_statistics_options(CLI::App& p, EnsembleArguments& a) {
   const char* const group = "Statistics";
-  p.add_option("--from", a.study.from,
-               "Compute the statistics of this complete OUT.h5 again; maps nothing. Groups are then of its replicates: "
-               "--group NAME MEMBER..., each NAME, GROUP/NAME, or with some of its frames, w1@0:49 (see --frames)")
+  p.add_option(
+       "--from", a.study.from,
+       "Compute the statistics of this complete OUT.h5 again; maps nothing, unless causes are asked for. Groups are "
+       "then of its replicates: --group NAME MEMBER..., each NAME, GROUP/NAME, or with some of its frames, w1@0:49 "
+       "(see --frames)")
       ->group(group);
   p.add_option("--alpha", a.study.statistics.alpha, "Significance level; intervals have the confidence 1 - alpha")
       ->check(CLI::Range(1e-6, 0.5))

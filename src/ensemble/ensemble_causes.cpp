@@ -150,7 +150,8 @@ std::vector<EnsembleCauses> find_ensemble_causes(Engine& engine, const CompareIn
                                                  const CompareOptions& options, const EnsembleFile& file,
                                                  const EnsembleResult& result,
                                                  const std::function<CompareInput(std::size_t)>& read,
-                                                 const Progress& progress) {
+                                                 const Progress& progress,
+                                                 const std::function<void(const Message&)>& tell) {
   std::vector<std::vector<double>> areas;
   for (const std::string& text : options.causes)
     areas.push_back(areas_of_patch(parse_reading(text).patch, file, result));
@@ -176,6 +177,11 @@ std::vector<EnsembleCauses> find_ensemble_causes(Engine& engine, const CompareIn
       sums.add(r, plan.place_of(frames[i]).first, reading);
       const double sum = std::accumulate(reading.of_residue.begin(), reading.of_residue.end(), reading.others);
       all[r].sum_error = std::max(all[r].sum_error, std::fabs(sum - reading.mean));
+    }
+    if (i == 0 && frames.size() > 1) {
+      const double first = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      tell("the causes solve " + std::to_string(frames.size()) + " frames again, in about " +
+           in_words(first * static_cast<double>(frames.size())));
     }
   }
   for (std::size_t r = 0; r < areas.size(); ++r) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/handles.h"
+#include "base/message.h"
 #include "base/progress.h"
 #include "compare/input.h"
 #include "statistics/surface_test.h"
@@ -40,13 +41,15 @@ void check_ensemble_causes(const CompareOptions& options, const CompareInput& so
 /// Maps every frame of the statistics again, and takes the patches of `options.causes` apart: each takes about as long
 /// as before, and half as long again for each patch. Replicates are the samples, as they are for potentials.
 /// @param result with its patches: `patch NAME` is a fixed one, `patch 2` the second that was found significant
+/// @param tell   gets, after the first frame, how long all of them take
 /// @param read   a frame of all; it lives until the next one is asked for
 /// @throws InputError (no such patch), and as TemplateMapping
 std::vector<EnsembleCauses> find_ensemble_causes(Engine& engine, const CompareInput& source,
                                                  const CompareOptions& options, const EnsembleFile& file,
                                                  const EnsembleResult& result,
                                                  const std::function<CompareInput(std::size_t)>& read,
-                                                 const Progress& progress);
+                                                 const Progress& progress,
+                                                 const std::function<void(const Message&)>& tell);
 
 /// OUT.causes.csv: a row for each reading and residue, in its order.
 void write_ensemble_causes(std::ostream& out, const EnsembleResult& result);

@@ -261,6 +261,10 @@ void EnsembleFile::choose(EnsemblePlan plan, std::vector<std::size_t> frames) {
   contents_->chosen = std::move(frames);
 }
 
+std::size_t EnsembleFile::place_in_run(std::size_t frame) const {
+  return contents_->chosen.empty() ? frame : contents_->chosen.at(frame);
+}
+
 void EnsembleFile::copy(std::size_t frame, const EnsembleFile& from) {
   std::vector<float> values(n_vertices());
   from.read_values(frame, 0, n_vertices(), values.data());

@@ -63,6 +63,8 @@ class EnsembleFile {
   /// From now on the file's frames are these, in this order, under another plan; it cannot be written any more.
   /// @param frames [frame of the plan] of the file, each at most once
   void choose(EnsemblePlan plan, std::vector<std::size_t> frames);
+  /// The place of a frame among those of the run that wrote the file; another number only after choose().
+  std::size_t place_in_run(std::size_t frame) const;
   /// Copies a whole frame of another file of the same plan, bit for bit.
   void copy(std::size_t frame, const EnsembleFile& from);
 

@@ -39,6 +39,10 @@ EnsembleInputs::EnsembleInputs(const EnsembleRequest& request, const CompareOpti
   }
   plan_.settings.emplace_back("frames", request_.frames);
   name_replicates();
+  const bool are_files = std::none_of(replicates_.begin(), replicates_.end(),
+                                      [](const ReplicateRequest& r) { return static_cast<bool>(r.read); });
+  if (are_files)
+    plan_.sources = FrameSources{request_.charges, "", request_.plugins, request_.potential, request_.structure};
   count_frames();
   check_replicates(plan_.replicates);
   find_maps();
@@ -231,6 +235,7 @@ RigidTransform EnsembleInputs::onto(const Molecule& earlier) const {
 void EnsembleInputs::choose_template(const std::string& text, bool skip_errors, const Progress& progress) {
   const std::size_t n = plan_.n_frames();
   const bool of_group = text.rfind(kMedoidOf, 0) == 0;
+  std::string chosen = text;
   if (text == "medoid" || of_group || is_number(text)) {
     const std::size_t number =
         is_number(text) ? std::stoul(text)
@@ -239,12 +244,14 @@ void EnsembleInputs::choose_template(const std::string& text, bool skip_errors, 
       throw InputError(option("template", text) + ": there are " + std::to_string(n) +
                        " frames in all groups, numbered from 0");
     template_ = load(number);
+    chosen = std::to_string(number);
     const std::string what = of_group ? "medoid of " : text == "medoid" ? "medoid: " : "";
     plan_.template_name = what + plan_.name_of(number);
   } else {
     template_ = read_template(text, request_.structure, options_.input, progress);
     plan_.template_name = text;
   }
+  if (plan_.sources) plan_.sources->template_text = chosen;
   template_map_ = nullptr;
   if (potential_.computes() && has_charges(template_.molecule) && !potential_.takes_everything())
     template_map_ = maker_of(template_);

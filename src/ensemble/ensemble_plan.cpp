@@ -36,6 +36,36 @@ std::string replicates_differ(const EnsemblePlan& there, const EnsemblePlan& her
   return text;
 }
 
+Json sources_json(const FrameSources& s) {
+  Json settings = Json::array();
+  for (const auto& [name, text] : s.potential.given) settings.push_back({name, text});
+  return {{"charges", s.charges},
+          {"template", s.template_text},
+          {"plugins", s.plugins},
+          {"potential", s.potential.potential},
+          {"cell", s.potential.cell},
+          {"potential_settings", std::move(settings)},
+          {"model", s.structure.model},
+          {"include_hetero", s.structure.include_hetero},
+          {"include_water", s.structure.include_water},
+          {"assembly", s.structure.assembly}};
+}
+
+FrameSources parse_sources(const Json& json) {
+  FrameSources s;
+  json.at("charges").get_to(s.charges);
+  json.at("template").get_to(s.template_text);
+  json.at("plugins").get_to(s.plugins);
+  json.at("potential").get_to(s.potential.potential);
+  json.at("cell").get_to(s.potential.cell);
+  json.at("potential_settings").get_to(s.potential.given);
+  s.structure.model = integer_of<int>(json.at("model"));
+  json.at("include_hetero").get_to(s.structure.include_hetero);
+  json.at("include_water").get_to(s.structure.include_water);
+  json.at("assembly").get_to(s.structure.assembly);
+  return s;
+}
+
 /// Whether sizes fit each other, and their sum is a number of frames.
 bool holds_together(const EnsemblePlan& plan) {
   constexpr std::size_t kMostFrames = 1'000'000'000;
@@ -103,6 +133,7 @@ std::string plan_text(const EnsemblePlan& plan) {
     json["replicates"].back()["topology"] = r.topology;
     json["replicates"].back()["topology_sha256"] = r.topology_sha256;
   }
+  if (plan.sources) json["sources"] = sources_json(*plan.sources);
   json["residues"] = plan.residues;
   if (plan.matrix != nullptr) json["matrix"] = {{"plan", plan_json(*plan.matrix)}, {"exact_sample", plan.n_exact}};
   // A path need not be UTF-8, JSON must be.
@@ -129,6 +160,7 @@ EnsemblePlan parse_ensemble_plan(const std::string& text, const std::string& pat
                                  r.at("sha256").get<std::vector<std::string>>(),
                                  integer_of<std::size_t>(r.at("n_frames")), r.value("topology", std::string()),
                                  r.value("topology_sha256", std::string())});
+    if (json.contains("sources")) plan.sources = parse_sources(json.at("sources"));
     json.at("residues").get_to(plan.residues);
     if (json.contains("matrix")) {
       plan.matrix = std::make_shared<const MatrixPlan>(parse_plan(json.at("matrix").at("plan").dump()));

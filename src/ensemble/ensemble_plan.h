@@ -2,10 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "base/structure_options.h"
+#include "potential/potential_plan.h"
 
 namespace espdiff {
 
@@ -17,6 +22,15 @@ struct EnsembleReplicate {
   std::vector<std::string> files, sha256;
   std::size_t n_frames = 0;
   std::string topology{}, topology_sha256{};  ///< of the atoms of trajectories; empty for none
+};
+
+/// How the frames were read, so that they can be read again. Values depend on what the plan says of their content.
+struct FrameSources {
+  std::map<std::string, std::string> charges;  ///< group: file
+  std::string template_text;                   ///< a frame of all, or a file
+  std::string plugins;                         ///< folder of VMD's molfile plugins; empty: the usual one
+  PotentialRequest potential;
+  StructureOptions structure;
 };
 
 /// Everything that the values depend on; it identifies an ensemble file, and shards of one run.
@@ -31,6 +45,7 @@ struct EnsemblePlan {
   std::vector<std::string> residues;                         ///< labels of the template's
   /// Of a matrix through a template, whose variants are the frames of one replicate; null otherwise.
   std::shared_ptr<const MatrixPlan> matrix{};
+  std::optional<FrameSources> sources{};  ///< none where frames came from no file
   std::size_t n_exact = 0;  ///< pairs of the matrix that are compared by themselves too; no value depends on it
 
   std::size_t n_frames() const;

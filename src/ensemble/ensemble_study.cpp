@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "compare/settings.h"
 #include "engine/engine.h"
+#include "ensemble/earlier_run.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/relabel.h"
 #include "ensemble/template_patches.h"
@@ -38,6 +39,11 @@ std::string output_of_check(const EnsembleStudy& study, const std::string& group
   return study.run.output + ".template-" + group;
 }
 
+bool is_nonlinear(const PotentialRequest& potential) {
+  return std::any_of(potential.given.begin(), potential.given.end(),
+                     [](const auto& setting) { return setting.second == "nonlinear"; });
+}
+
 /// A study while it runs.
 class Study {
  public:
@@ -60,12 +66,12 @@ class Study {
 
   std::string design() const { return design_warning(inputs_.plan()); }
 
-  void run(Engine& engine, EnsembleAnswer& answer) {
+  void run(Engine& engine, EnsembleAnswer& answer, const std::function<void(const Message&)>& warn) {
     answer.device = engine.description();
     EnsembleOptions statistics = study_.statistics;
     statistics.regression = regression_;
     inputs_.choose_template(study_.inputs.template_text, study_.run.skip_errors, progress_);
-    check_ensemble_causes(study_.options, inputs_.source(), is_nonlinear());
+    check_ensemble_causes(study_.options, inputs_.source(), is_nonlinear(study_.inputs.potential));
     // A wrong selection is refused before the work. Patches are of the first template.
     statistics.fixed_patches = fixed_patches(study_.options, *inputs_.source().molecule);
     map(engine, study_.run, answer);
@@ -77,17 +83,12 @@ class Study {
     if (!study_.options.causes.empty()) {
       result.causes = find_ensemble_causes(
           engine, inputs_.source(), study_.options, *answer.file, result,
-          [this](std::size_t frame) { return inputs_.frame(frame); }, progress_);
+          [this](std::size_t frame) { return inputs_.frame(frame); }, progress_, warn);
     }
     if (study_.check_template) check_templates(engine, answer);
   }
 
  private:
-  bool is_nonlinear() const {
-    const auto& given = study_.inputs.potential.given;
-    return std::any_of(given.begin(), given.end(), [](const auto& setting) { return setting.second == "nonlinear"; });
-  }
-
   void map(Engine& engine, const EnsembleRun& run, EnsembleAnswer& answer) {
     EnsemblePlan plan = inputs_.plan();
     plan.device = engine.back_end();
@@ -116,19 +117,30 @@ class Study {
   std::optional<RegressionColumn> regression_;
 };
 
-void open_earlier(const EnsembleStudy& study, const Progress& progress, EnsembleAnswer& answer) {
-  if (!study.options.causes.empty())
-    throw InputError(option("causes") + " solves the frames again, and " + option("from") +
-                     " has none of their files: repeat the command that mapped them with " + switched_on("resume") +
-                     " and " + option("causes"));
+/// Statistics of a complete file; for causes its frames are read again, from their files.
+void open_earlier(const EnsembleStudy& study, const std::function<std::unique_ptr<Engine>()>& make_engine,
+                  const Progress& progress, const std::function<void(const Message&)>& warn, EnsembleAnswer& answer) {
   check_outputs(inputs_of(study, {study.from}), outputs_of(study));
   answer.file = std::make_unique<EnsembleFile>(study.from, false);
+  std::unique_ptr<EarlierRun> run;
+  if (!study.options.causes.empty()) {
+    run = std::make_unique<EarlierRun>(*answer.file, study.options, progress);
+    check_outputs(run->inputs().files(), outputs_of(study));
+    check_ensemble_causes(study.options, run->inputs().source(), is_nonlinear(run->potential()));
+  }
   if (!study.inputs.replicates.empty()) relabel(*answer.file, study.inputs.replicates);
   EnsembleOptions statistics = study.statistics;
   statistics.fixed_patches = fixed_patches(study.options, residues_of_template(answer.file->plan()));
   if (!study.regress.empty()) statistics.regression = read_regression_column(study.regress, answer.file->plan());
   progress.report("statistics", 1.0);
   answer.result = std::make_unique<EnsembleResult>(analyse_ensemble(*answer.file, statistics));
+  if (!run) return;
+  const std::unique_ptr<Engine> engine = make_engine();
+  answer.device = engine->description();
+  const EnsembleFile& file = *answer.file;
+  answer.result->causes = find_ensemble_causes(
+      *engine, run->inputs().source(), run->options(), file, *answer.result,
+      [&](std::size_t frame) { return run->inputs().frame(file.place_in_run(frame)); }, progress, warn);
 }
 
 }  // namespace
@@ -150,13 +162,13 @@ EnsembleAnswer run_study(const EnsembleStudy& study, const std::function<std::un
                          const Progress& progress, const std::function<void(const Message&)>& warn) {
   EnsembleAnswer answer;
   if (!study.from.empty()) {
-    open_earlier(study, progress, answer);
+    open_earlier(study, make_engine, progress, warn, answer);
   } else {
     progress.report("read", 0.0);
     Study part(study, progress);
     const std::string warning = part.design();
     if (!warning.empty()) warn(warning);
-    part.run(*make_engine(), answer);
+    part.run(*make_engine(), answer, warn);
   }
   if (answer.result == nullptr) return answer;
   EnsembleResult& result = *answer.result;

@@ -126,9 +126,31 @@ TEST_CASE("the mutant's charge makes the difference of a patch, fixed or found, 
   CHECK(contains(refused("--scan --causes 'patch 1'"), "--scan is of one pair, not of an ensemble"));
   CHECK(
       contains(refused("--causes 'patch lid'"), "--causes 'patch lid': there is no patch of that name; give --patch"));
-  CHECK(contains(in.run("ensemble --from out.h5 -o again --causes 'patch 1'").err,
-                 "--causes solves the frames again, and --from has none of their files: repeat the command that mapped "
-                 "them with --resume and --causes"));
+}
+
+TEST_CASE("a complete file gets causes: its frames are read again, and must be those that were mapped") {
+  const Runs in;
+  REQUIRE(in.ensemble(in.groups + " --patch 'end=//A/6-8' --causes 'patch 1' -q -o out").status == 0);
+  const auto again = [&](const std::string& options) { return in.run("ensemble --from out.h5 -o again " + options); };
+  const std::string expected = read_file(in.folder.file("out.causes.csv"));
+  const Outcome same = again("--causes 'patch 1'");
+  REQUIRE_MESSAGE(same.status == 0, same.err);
+  CHECK(contains(same.err, "the causes solve " + std::to_string(8 * kFrames) + " frames again, in about "));
+  CHECK(read_file(in.folder.file("again.causes.csv")) == expected);
+  // Frames keep their files when replicates are chosen in another order.
+  const Outcome chosen =
+      again("--group mutant m2 m1 --group wild w1 w3 -q --overwrite --patch 'end=//A/6-8' --causes 'patch end'");
+  CHECK_MESSAGE(chosen.status == 0, chosen.err);
+  CHECK(contains(again("--causes whole").err, "an ensemble's causes are of a patch"));
+  CHECK(contains(again("--causes 'patch 1' --scan").err, "--scan is of one pair, not of an ensemble"));
+  in.folder.write("m2.pqr", models(9, true, true));
+  CHECK(contains(again("--causes 'patch 1'").err,
+                 "--causes solves the frames of out.h5 again, and they are others now: the content of replicate m2 of "
+                 "mutant has changed; put back what was mapped, or map again without --from"));
+  std::filesystem::remove(in.folder.file("m2.pqr"));
+  CHECK(contains(again("--causes 'patch 1'").err,
+                 "--causes solves the frames of out.h5 again, and m2.pqr (replicate m2 of mutant) is not there; start "
+                 "in the folder in which they were mapped, or put the file back"));
 }
 
 TEST_CASE("kill -9 at any time: the run resumes to the same bytes; shards merge to them") {
