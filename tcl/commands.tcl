@@ -273,8 +273,8 @@ namespace eval ::espdiff {
                 answer stays"}
             {-states boolean 0 "Also compare every frame with every other one, and find the principal components of\
                 the potential"}
-            {-arrangements count 10000 "Exchanges of labels at most; all of them where there are fewer"}
-            {-seed count 20221 "Of random numbers; results name it"}
+            {-permutations count 10000 "Maximum number of permutations of labels; all are used if there are fewer"}
+            {-seed count 20221 "Random seed; written into the result"}
         } $computing] \
         summary {Compares two groups of simulations: where is the difference more than noise? One surface, the template,
             is mapped onto every frame, and each replicate is one sample. Groups are a list of a name and its

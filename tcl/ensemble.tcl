@@ -56,7 +56,7 @@ namespace eval ::espdiff {
     proc ensemble_options {options groups} {
         set core [core_options $options]
         foreach key {resume overwrite on-error shard check-template states alpha control equilibration most-missing
-            arrangements seed frames template} {
+            permutations seed frames template} {
             dict set core [string map {- _} $key] [dict get $options $key]
         }
         dict set core output [file normalize [dict get $options output]]

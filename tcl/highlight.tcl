@@ -59,21 +59,20 @@ namespace eval ::espdiff {
         }
     }
 
-    # Highlights residues of one molecule by their names in a trajectory's table, such as "A:LYS 12". `owner` stands in
-    # the place of a handle.
-    proc highlight_named {owner mol names {face 0}} {
+    # Highlights one residue of each molecule by its name in a trajectory's table, such as "A:LYS 12": {molecule name
+    # ...}, the target's last. `owner` stands in the place of a handle.
+    proc highlight_named {owner residues {face 0}} {
         variable highlights
-        set keys [dict create]
-        foreach name $names {
-            if {[regexp {^(?:([^:]*):)?.* (-?\d+)(\D?)$} $name -> chain number insertion]} {
-                dict set keys [residue_key $chain "" $number $insertion] 1
-            }
-        }
-        set indices [atoms_of_residues $mol $keys]
         forget_highlight $owner
-        if {[llength $indices] == 0} return
-        dict lappend highlights $owner [list $mol [add_highlight $mol $indices [highlight_style]]]
-        if {$face} { face_atoms $mol $indices }
+        set shown {}
+        foreach {mol name} $residues {
+            if {![regexp {^(?:([^:]*):)?.* (-?\d+)(\D?)$} $name -> chain number insertion]} continue
+            set indices [atoms_of_residues $mol [dict create [residue_key $chain "" $number $insertion] 1]]
+            if {[llength $indices] == 0} continue
+            dict lappend highlights $owner [list $mol [add_highlight $mol $indices [highlight_style]]]
+            set shown [list $mol $indices]
+        }
+        if {$face && $shown ne ""} { face_atoms {*}$shown }
     }
 
     # The usual look: the defaults of the command.

@@ -104,8 +104,11 @@ namespace eval ::espdiff {
             if {$mol ni [molinfo list]} { dict unset legends $mol; dict unset ::espdiff::drawn_texts $mol; continue }
             lassign $place handle middle
             if {[regexp { (titles|note)$} [lindex [molinfo $mol get name] 0]]} { place_legend $mol $middle 0; continue }
-            if {$handle ni $rows} { lappend rows $handle }
-            place_legend $mol $middle [lsearch -exact $rows $handle]
+            # Those of linked views stand beside each other; a drawing's and its atoms' colours do not.
+            incr taken($handle,$middle)
+            set row [list $handle $taken($handle,$middle)]
+            if {$row ni $rows} { lappend rows $row }
+            place_legend $mol $middle [lsearch -exact $rows $row]
         }
         if {[dict size $legends] == 0} { trace remove variable ::vmd_logfile write ::espdiff::on_vmd_command }
     }

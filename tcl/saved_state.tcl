@@ -109,7 +109,7 @@ namespace eval ::espdiff {
         set files [dict get [core::result $handle] files]
         set options [dict remove [lrange $call 3 end] -command -progress -output -resume -overwrite -check-template]
         set kept {}
-        foreach name {-alpha -control -equilibration -most-missing -arrangements -seed} {
+        foreach name {-alpha -control -equilibration -most-missing -permutations -seed} {
             if {[dict exists $options $name]} { lappend kept $name [dict get $options $name] }
         }
         set h5 [lsearch -inline -glob $files *.h5]

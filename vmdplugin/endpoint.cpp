@@ -13,6 +13,7 @@
 #include "compare/options.h"
 #include "fingerprint.h"
 #include "io/molecule_builder.h"
+#include "io/read_dx.h"
 #include "io/read_grid.h"
 #include "io/structure_file.h"
 #include "molfile_bridge.h"
@@ -188,7 +189,8 @@ void parse_map(Tcl_Obj* description, DictReader& endpoint_reader, Endpoint& endp
     endpoint.map = take_volume(name);
     if (!endpoint.map) throw InputError(endpoint.role + " map: no volume named '" + name + "' is in memory");
     endpoint.map->name = label;
-    if (!endpoint.map_unit.empty()) endpoint.map->unit = parse_potential_unit(endpoint.map_unit);
+    endpoint.map->contradicting_title = title_of_other_quantity(label);
+    if (!endpoint.map_unit.empty()) take_unit(endpoint.map_unit, *endpoint.map);
     if (Tcl_Obj* const numbers = endpoint_reader.find("cell")) {
       const std::optional<UnitCell> cell = parse_unit_cell(numbers, endpoint.role + " cell");
       if (cell && covers_cell(endpoint.map->lattice, *cell)) endpoint.map->periodic = true;
@@ -360,8 +362,8 @@ void load(Endpoint& endpoint, const CompareOptions& options, const Endpoint* sou
   if (endpoint.map_path.empty()) return;
   GridOptions grid;
   grid.array = endpoint.map_array;
+  grid.unit = endpoint.map_unit;
   GridFile map = read_grid_file(endpoint.map_path, grid);
-  if (!endpoint.map_unit.empty()) map.grid.unit = parse_potential_unit(endpoint.map_unit);
   endpoint.map = std::move(map.grid);
   endpoint.inputs.push_back({endpoint.role + "_map", endpoint.map_path, std::move(map.sha256)});
 }

@@ -62,7 +62,7 @@ EnsembleOptions parse_statistics(DictReader& reader) {
     return static_cast<std::size_t>(n);
   };
   SurfaceTestOptions& test = statistics.test;
-  test.most_arrangements = counted("arrangements", "arrangements", test.most_arrangements, 20, 1000000);
+  test.max_permutations = counted("permutations", "permutations", test.max_permutations, 20, 1000000);
   test.seed = counted("seed", "seed", test.seed, 0, std::numeric_limits<int>::max());
   return statistics;
 }

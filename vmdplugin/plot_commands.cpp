@@ -60,8 +60,9 @@ Tcl_Obj* plot_residues(const Call& call) {
 
 Tcl_Obj* has_residue_table(const Call& call) { return to_obj(is_residue_table(read_csv(call.text(0)))); }
 
-/// FILE: {title T unit U frames LIST residues LIST rows LIST low L high H}, a row for each residue that has a value,
-/// each a list by frame, empty where it has none.
+/// FILE: {title T unit U frames LIST residues LIST partners LIST rows LIST low L high H}, a row for each residue that
+/// has a value, each a list by frame, empty where it has none. Partners are the target's names of the residues; no list
+/// where they are the same.
 Tcl_Obj* read_residue_map(const Call& call) {
   const CsvTable table = read_csv(call.text(0));
   if (!is_residue_table(table))
@@ -82,6 +83,7 @@ Tcl_Obj* read_residue_map(const Call& call) {
                   {"unit", to_obj(map.unit)},
                   {"frames", to_list(frames)},
                   {"residues", to_list(map.labels)},
+                  {"partners", to_list(map.partners)},
                   {"rows", to_list(rows)},
                   {"low", to_obj(low)},
                   {"high", to_obj(high)}});

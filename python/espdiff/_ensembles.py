@@ -178,7 +178,7 @@ class Ensemble(EngineResult):
 def _order(*, charges=None, maps=None, map_unit="", frames="all", template="medoid", output="", resume=False,
            overwrite=False, skip_errors=False, shard=None, from_file=None, check_template=False, states=False,
            regress=None, alpha=0.05, control="tfce",
-           equilibration="none", most_missing=0.2, arrangements=10000, seed=20221, plugins=""):
+           equilibration="none", most_missing=0.2, permutations=10000, seed=20221, plugins=""):
     """The order of a study, checked; its defaults are the command line's."""
     if control not in ("tfce", "max-t"):
         raise _core.InputError(f"control: {control!r} is not tfce or max-t")
@@ -193,7 +193,7 @@ def _order(*, charges=None, maps=None, map_unit="", frames="all", template="medo
         "alpha": _checked("alpha", alpha, 1e-6, 0.5),
         "control": control, "equilibration": str(equilibration),
         "most_missing": _checked("most_missing", most_missing, 0, 0.9),
-        "arrangements": _checked("arrangements", arrangements, 20, 1000000),
+        "permutations": _checked("permutations", permutations, 20, 1000000),
         "seed": _checked("seed", seed, 0, 2**63 - 1),
         "plugins": plugins}
 
@@ -222,7 +222,7 @@ def ensemble(groups=None, *, output=None, potential: str = "auto", device: str =
     number of a frame, or a file. patches: {name: selection} chosen beforehand, in fixed_patches of the result.
     check_template, states: see the command.
     regress: "FILE.csv:COLUMN", a value of each replicate, regressed on the surface; to_dict()["regression"] has the answer.
-    alpha, control, equilibration, most_missing, arrangements, seed: of the statistics.
+    alpha, control, equilibration, most_missing, permutations, seed: of the statistics.
     output: prefix of OUT.h5 and the results, the bytes of the command line's; with `resume` a run that broke off goes
     on. Without it nothing stays but the result. shard: "2/8" maps a part, for espdiff.merge(); it needs `output`.
     from_file: a complete OUT.h5, of which the statistics alone are computed again: without groups, or with

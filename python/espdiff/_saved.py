@@ -244,6 +244,6 @@ def _load_ensemble(path, record):
     from ._ensembles import ensemble
 
     given = record.get("options", {})
-    names = {"alpha": "alpha", "control": "control", "most_missing": "most_missing", "arrangements": "most_arrangements",
+    names = {"alpha": "alpha", "control": "control", "most_missing": "most_missing", "permutations": "max_permutations",
              "seed": "seed"}
     return ensemble(from_file=path, **{name: given[key] for name, key in names.items() if key in given})

@@ -77,7 +77,7 @@ EnsembleOptions statistics_of(const nb::dict& order) {
   statistics.most_missing = nb::cast<double>(order["most_missing"]);
   statistics.control = text_in(order, "control") == "tfce" ? ErrorControl::kTfce : ErrorControl::kMaxT;
   statistics.equilibration = parse_equilibration(text_in(order, "equilibration"));
-  statistics.test.most_arrangements = nb::cast<std::uint64_t>(order["arrangements"]);
+  statistics.test.max_permutations = nb::cast<std::uint64_t>(order["permutations"]);
   statistics.test.seed = nb::cast<std::uint64_t>(order["seed"]);
   return statistics;
 }

@@ -164,8 +164,8 @@ StatePtr with_map_file(const State& state, const std::string& path, const std::s
   auto copy = std::make_shared<State>(state);
   GridOptions options;
   options.array = array;
+  options.unit = unit;
   GridFile map = read_grid_file(path, options);
-  if (!unit.empty()) map.grid.unit = parse_potential_unit(unit);
   copy->map = std::make_shared<const Grid>(std::move(map.grid));
   copy->map_input = {"", path, map.sha256};
   copy->map_from_file = true;

@@ -21,7 +21,7 @@ struct ChargeOptions {
   std::string force_field = "auto";
   double ph = 7;
   std::vector<std::string> ligands;  ///< MOL2 files
-  bool ligands_auto = false;         ///< the other ligands get hydrogens and charges from Open Babel
+  bool ligands_auto = true;          ///< the other ligands get hydrogens and charges from Open Babel, if it is there
   bool same_protonation = false;     ///< residues of the target take the states of the source's they pair with
   bool use_cache = true;
 };

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "base/chemical_formula.h"
 #include "base/units.h"
 #include "base/vector.h"
 
@@ -57,6 +59,7 @@ struct Molecule {
   ValueOrigin radii_origin = ValueOrigin::kNone;
   std::string name;  ///< for messages: the path, or VMD's molecule name
   std::vector<LeftOutResidue> left_out{};
+  std::map<std::string, ChemicalFormula> formulas{};  ///< by residue name, where the file gives them
 
   std::size_t size() const { return positions.size(); }
 };
@@ -81,6 +84,8 @@ struct Grid {
   bool periodic = false;
   PotentialUnit unit = PotentialUnit::kUnknown;
   std::string name;  ///< for messages: the path
+  /// What the file calls its values where that is no potential, or one in another unit than `unit`: a warning's text.
+  std::string contradicting_title;
 };
 
 using Triangle = std::array<std::uint32_t, 3>;  ///< vertex indices, counter-clockwise seen from outside

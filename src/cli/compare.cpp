@@ -1,8 +1,10 @@
 // compare.cpp: `espdiff compare SOURCE TARGET -o OUT`.
 #include <chrono>
+#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "base/printable.h"
 #include "cli/help.h"
 #include "cli/map_options.h"
 #include "cli/next_command.h"
@@ -238,6 +240,15 @@ void print_next(const CompareArguments& a, const Comparison& first, Engine& engi
   std::cout << '\n';
 }
 
+/// What is doubtful about charges that were made, of which a verdict says nothing.
+void print_doubts(const Comparison& comparison) {
+  for (const Side* side : {&comparison.source, &comparison.target}) {
+    if (!side->state.preparation) continue;
+    for (const std::string& doubt : side->state.preparation->warnings)
+      std::fprintf(stderr, "espdiff: of the %s, %s\n", side->role.c_str(), printable(doubt).c_str());
+  }
+}
+
 int compare_verb(const CompareArguments& a, const Context& context) {
   check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
@@ -273,6 +284,7 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   context.progress->report("write", 1.0);
   if (a.quiet) {
     print_verdict_line(std::cout, result);
+    print_doubts(comparison);
   } else {
     const auto record = compare_json(source_molecule, target_molecule, result, options, provenance, spelled_option);
     if (a.full) {

@@ -189,12 +189,12 @@ void add_statistics_options(CLI::App& p, EnsembleArguments& a) {
       ->check(CLI::Range(0.0, 0.9))
       ->capture_default_str()
       ->group(group);
-  p.add_option("--arrangements", a.study.statistics.test.most_arrangements,
-               "Exchanges of labels at most; all of them where there are fewer")
+  p.add_option("--permutations", a.study.statistics.test.max_permutations,
+               "Maximum number of permutations of labels; all are used if there are fewer")
       ->check(CLI::Range(20, 1000000))
       ->capture_default_str()
       ->group(group);
-  p.add_option("--seed", a.study.statistics.test.seed, "Of random numbers; results name it")
+  p.add_option("--seed", a.study.statistics.test.seed, "Random seed; written into the result")
       ->capture_default_str()
       ->group(group);
 }

@@ -211,9 +211,8 @@ void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, boo
 GridFile read_map(const std::string& path, const std::string& array, const std::string& unit) {
   GridOptions options;
   options.array = array;
-  GridFile map = read_grid_file(path, options);
-  if (!unit.empty()) map.grid.unit = parse_potential_unit(unit);
-  return map;
+  options.unit = unit;
+  return read_grid_file(path, options);
 }
 
 }  // namespace espdiff::cli

@@ -279,6 +279,13 @@ int plot_verb(PlotArguments& a, const Context&) {
 
 }  // namespace
 
+void plot_frames(const std::string& table, const std::string& picture) {
+  PlotArguments a;
+  a.input = table;
+  a.output = picture;
+  plot_verb(a, {});
+}
+
 Verb add_plot(CLI::App& app) {
   auto a = std::make_shared<PlotArguments>();
   CLI::App* parser =

@@ -1,4 +1,4 @@
-// plot_pair.h: what `espdiff plot` draws of a comparison.
+// plot_pair.h: what `espdiff plot` draws of a comparison, and what a trajectory draws by itself.
 #pragma once
 
 #include <cstddef>
@@ -19,5 +19,9 @@ bool is_pair_table(const CsvTable& table);
 /// @param bars the `top` ones that differ most (0: all); otherwise all in file order
 /// @throws InputError (shapes alone were compared)
 StatePlot state_plot(const CsvTable& table, bool bars, std::size_t top, const std::string& title);
+
+/// As `espdiff plot TABLE -o PICTURE`, of a trajectory's table.
+/// @throws as line_plot_script(), write_picture()
+void plot_frames(const std::string& table, const std::string& picture);
 
 }  // namespace espdiff::cli

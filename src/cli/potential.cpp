@@ -36,7 +36,7 @@ struct PotentialArguments {
   double temperature_K = PmeOptions().temperature_K;
   GivenPotentialSettings given;
   std::size_t frames_per_block = 1;
-  bool quiet = false;
+  bool quiet = false, overwrite = false;
   GivenSettings settings;
   StructureOptions structure{1, true, true};
   DeviceArguments device;
@@ -127,7 +127,7 @@ class Outputs {
     }
     std::vector<std::string> inputs = input_files(make_options(a.settings).input);
     inputs.insert(inputs.end(), {a.molecule, a.xsc_file});
-    check_outputs(inputs, paths);
+    check_outputs(inputs, paths, a.overwrite);
     for (const std::string& path : paths) open(path);
   }
 
@@ -264,12 +264,12 @@ Verb add_potential(CLI::App& app) {
   parser->add_flag("!--no-water", a->structure.include_water, "Ignore water molecules, which are kept by default")
       ->group("Molecules");
   add_device_options(*parser, a->device);
+  parser->add_flag("--overwrite", a->overwrite, "Replace files of these names, if there are any");
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
-  set_help(
-      *parser,
-      {"--output --method --select --ph --ligand --ionic-strength --pb-spacing --align --variance --threads --quiet",
-       {"espdiff potential entry.pdb --select '//A;polymer' --method pb -o entry.dx",
-        "espdiff potential frames.pqr --align ca --variance variance.dx -o mean.dx"}});
+  set_help(*parser, {"--output --method --select --ph --ligand --ionic-strength --pb-spacing --align --variance "
+                     "--overwrite --threads --quiet",
+                     {"espdiff potential entry.pdb --select '//A;polymer' --method pb -o entry.dx",
+                      "espdiff potential frames.pqr --align ca --variance variance.dx -o mean.dx"}});
   return {parser, [a](const Context& context) { return potential_verb(*a, context); }};
 }
 

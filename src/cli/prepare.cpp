@@ -23,7 +23,7 @@ namespace {
 
 struct PrepareArguments {
   std::string input, output, json;
-  bool quiet = false;
+  bool quiet = false, overwrite = false;
   StructureOptions structure;
   GivenSettings settings;
 };
@@ -69,7 +69,7 @@ int prepare_verb(PrepareArguments& a, const Context& context) {
   if (a.json.empty()) a.json = json_beside(a.output);
   std::vector<std::string> inputs = input_files(options.input);
   inputs.push_back(a.input);
-  check_outputs(inputs, {a.output, a.json});
+  check_outputs(inputs, {a.output, a.json}, a.overwrite);
   AtomicFile pqr(a.output), json(a.json);
   const StructureFile file(a.input);
   const LoadedState state =
@@ -102,6 +102,7 @@ Verb add_prepare(CLI::App& app) {
       ->group("Structures");
   add_structure_options(*parser, a->structure);
   add_settings(*parser, a->settings, SettingsFor::kPreparation);
+  parser->add_flag("--overwrite", a->overwrite, "Replace files of these names, if there are any");
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   set_help(*parser, {"",
                      {"espdiff prepare 1ake.pdb --select '//A;polymer' -o 1ake_a.pqr",

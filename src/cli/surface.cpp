@@ -111,6 +111,8 @@ int surface_verb(const SurfaceArguments& a, const Context& context) {
   if (state.preparation) print_preparation(std::cout, *state.preparation);
   if (!plan.because().empty()) std::cout << "potential      none: " << plan.because() << '\n';
   if (!note.empty()) std::cout << "radii          " << note << '\n';
+  if (!map.contradicting_title.empty())
+    std::cout << "map            calls itself '" << map.contradicting_title << "', but is taken as a potential\n";
   print_summary(result);
   return 0;
 }

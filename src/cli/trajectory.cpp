@@ -10,6 +10,7 @@
 #include "base/formatted.h"
 #include "base/printable.h"
 #include "cli/help.h"
+#include "cli/plot_pair.h"
 #include "cli/trajectory_sides.h"
 #include "cli/verbs.h"
 #include "compare/input_settings.h"
@@ -17,6 +18,7 @@
 #include "engine/engine.h"
 #include "io/check_outputs.h"
 #include "io/molfile_plugins.h"
+#include "plot/gnuplot.h"
 #include "prepare/input_files.h"
 #include "report/residue_values.h"
 #include "trajectory/frame_range.h"
@@ -111,6 +113,15 @@ SeriesHead head_of(const TrajectoryArguments& a, const TrajectoryPlan& plan, con
   return series_head(run, plan.options);
 }
 
+constexpr std::size_t kPlotEnding = 4;
+
+/// OUT.png or OUT.svg
+bool is_plot(const std::string& path) {
+  if (path.size() <= kPlotEnding) return false;
+  const std::string ending = path.substr(path.size() - kPlotEnding);
+  return ending == ".png" || ending == ".svg";
+}
+
 int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
   check_map_options(a.maps);
   if (a.resume && a.overwrite) throw InputError("--resume and --overwrite exclude each other");
@@ -125,7 +136,11 @@ int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
   inputs.insert(inputs.end(), a.targets.begin(), a.targets.end());
   inputs.insert(inputs.end(), a.source_frames.begin(), a.source_frames.end());
   inputs.insert(inputs.end(), {a.source, a.frames_of, a.maps.source_map, a.maps.target_map});
-  check_outputs(inputs, {a.output, a.output + ".state", a.residues});
+  check_outputs(inputs, {a.output, a.output + ".state", a.residues, a.picture});
+  if (!a.picture.empty()) {
+    require_gnuplot();
+    if (!a.overwrite && !a.resume) check_outputs({}, {a.picture}, false);
+  }
   const auto begun = std::chrono::steady_clock::now();
   context.progress->report("read", 0.0);
   TrajectorySides sides(a, plan.options, *context.progress);
@@ -149,6 +164,7 @@ int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
     run.step(
         *engine, [&] { return sides.step(run.next()); }, *context.progress);
   const TrajectorySummary summary = run.summary();
+  if (!a.picture.empty()) plot_frames(a.output, a.picture);
   if (a.quiet) return 0;
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   std::cout << formatted("frames         %zu\n", summary.n_frames);
@@ -156,6 +172,7 @@ int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
   if (summary.n_skipped > 0)
     std::cout << formatted("errors         %zu rows have one instead of numbers\n", summary.n_skipped);
   std::cout << formatted("time           %.1f s\n", s);
+  if (!a.picture.empty()) std::cout << "written        " << a.output << ", " << a.picture << '\n';
   return 0;
 }
 
@@ -176,7 +193,11 @@ Verb add_trajectory(CLI::App& app) {
       ->add_option("SOURCE", a->source, "Structure that each frame is compared with: PQR, PDB or mmCIF; or a topology")
       ->required();
   parser->add_option("FRAMES", a->targets, "Structure files whose models are the frames, or trajectories")->required();
-  parser->add_option("-o,--output,--csv", a->output, "CSV file that gets a row for each frame")->required();
+  parser
+      ->add_option("-o,--output,--csv", a->output,
+                   "CSV file that gets a row for each frame; OUT.png or OUT.svg "
+                   "draws the plot, too, beside OUT.csv")
+      ->required();
   add_run_options(*parser, *a);
   add_map_options(*parser, a->maps);
   add_structure_options(*parser, a->structure);
@@ -187,7 +208,13 @@ Verb add_trajectory(CLI::App& app) {
                      "--domains --plugins --threads --quiet",
                      {"espdiff trajectory closed.pqr frames.pdb -o motion.csv",
                       "espdiff trajectory adk.psf adk.dcd --potential pb --frames 0:10:end -o motion.csv --resume"}});
-  return {parser, [a](const Context& context) { return trajectory_verb(*a, context); }};
+  return {parser, [a](const Context& context) {
+            if (is_plot(a->output)) {
+              a->picture = a->output;
+              a->output.replace(a->output.size() - kPlotEnding, kPlotEnding, ".csv");
+            }
+            return trajectory_verb(*a, context);
+          }};
 }
 
 }  // namespace espdiff::cli

@@ -18,7 +18,7 @@ namespace espdiff::cli {
 
 /// What `espdiff trajectory` was called with.
 struct TrajectoryArguments {
-  std::string source, output, plugins, frames_of, residues, residue_quantity;
+  std::string source, output, picture, plugins, frames_of, residues, residue_quantity;
   std::string frames = "all", start = "auto", on_error = "stop", reference = "source";
   std::vector<std::string> targets, source_frames;
   int source_model = 1;

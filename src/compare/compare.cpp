@@ -328,11 +328,13 @@ struct Series::Steps {
       check("target", target, *of_target, result.target_map_check);
     }
     pair_warnings(source, target, source_references.get(), of_target.get(), result, warnings);
+    if (!options.trust_maps) refuse_vacuum_against_solvent(result);
     for (Warning& warning : kind_warnings(result)) warnings.push_back(std::move(warning));
     for (Warning& warning : warnings) {
       warning.refuses = warning.refuses && !options.trust_maps;
       result.warnings.push_back(std::move(warning));
     }
+    for (Warning& warning : water_warnings(result)) result.warnings.push_back(std::move(warning));
   }
 
   /// Maps the source onto the target once, and certifies the mapping.

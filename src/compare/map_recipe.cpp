@@ -76,6 +76,30 @@ std::string potential_label(const MapRecipe& r) {
   return r.has_water ? "PME with explicit water" + part + frames : "vacuum (PME without water" + part + frames + ")";
 }
 
+std::string differing_parameters(const MapRecipe& source, const MapRecipe& target) {
+  std::string text;
+  const auto compare = [&](const char* name, double a, double b) {
+    if (a != b)
+      text +=
+          (text.empty() ? "" : ", ") + std::string(name) + " " + formatted("%.6g", a) + " and " + formatted("%.6g", b);
+  };
+  if (source.method != target.method) return text;
+  if (source.method == PotentialMethod::kPme && source.pme.part == PmePart::kSmooth)
+    compare("beta", source.pme.ewald_factor, target.pme.ewald_factor);
+  if (source.method != PotentialMethod::kPoissonBoltzmann) return text;
+  const PoissonBoltzmannOptions &p = source.pb, &q = target.pb;
+  compare("ionic strength", p.ionic_strength, q.ionic_strength);
+  compare("solute dielectric", p.solute_dielectric, q.solute_dielectric);
+  compare("solvent dielectric", p.solvent_dielectric, q.solvent_dielectric);
+  compare("ion radius", p.ion_radius_A, q.ion_radius_A);
+  compare("probe radius", p.probe_radius_A, q.probe_radius_A);
+  compare("temperature", p.temperature_K, q.temperature_K);
+  compare("grid spacing", source.pb_spacing_A, target.pb_spacing_A);
+  if (p.dielectric_boundary != q.dielectric_boundary || p.smoothing != q.smoothing)
+    text += (text.empty() ? "" : ", ") + std::string("the boundary of the dielectric");
+  return text;
+}
+
 std::vector<std::string> potential_notes(const MapRecipe* source, const MapRecipe* target) {
   std::vector<std::string> notes;
   if (source != nullptr) note_fraction("source", *source, notes);

@@ -60,6 +60,9 @@ std::string potential_label(const MapRecipe& recipe);
 /// "bulk solvent", "mean of the cell" or "far away".
 std::string to_string(ZeroPlace zero);
 
+/// The parameters that two potentials of one method do not share, with the values of both, "solute dielectric 2 and 4".
+std::string differing_parameters(const MapRecipe& source, const MapRecipe& target);
+
 /// What a reader must know of two computed potentials before their difference is believed: charges that do not add up
 /// to a whole number, net charges or cells that differ and what that does to the zero, vacuum. Each one sentence.
 /// @param source, target null where the side's map was given

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "base/formatted.h"
@@ -101,6 +102,15 @@ void judge_slope(const char* role, const Grid& map, const MapCheck& check, doubl
                                   option(unit_option, other))));
 }
 
+/// A title that names another quantity or unit. It refuses where nothing else can tell whether the values are right.
+Warning title_warning(const char* role, const Grid& map, bool is_checked) {
+  const std::string unit = map.unit == PotentialUnit::kUnknown ? "" : " in " + to_string(map.unit);
+  const Message text = the_map(role) + " (" + map.name + ") calls itself '" + map.contradicting_title +
+                       "', but is taken as a potential" + unit;
+  if (is_checked) return {text + "; make sure of it", false};
+  return refuse(text + ", which cannot be checked; give the map of the potential");
+}
+
 bool same_map(const Grid& a, const Grid& b) {
   const Lattice &p = a.lattice, &q = b.lattice;
   const auto near = [](const Vec3d& u, const Vec3d& v) { return norm(u - v) < 1e-6; };
@@ -121,9 +131,10 @@ std::vector<Warning> map_warnings(const char* role, const Grid& map, const MapRe
                                   double temperature_K, std::shared_ptr<const MapCheck>& result) {
   result.reset();
   const std::optional<MapCheck> check = references.check(map);
-  if (!check) return {};
-  result = std::make_shared<const MapCheck>(*check);
   std::vector<Warning> warnings;
+  if (!map.contradicting_title.empty()) warnings.push_back(title_warning(role, map, check.has_value()));
+  if (!check) return warnings;
+  result = std::make_shared<const MapCheck>(*check);
   const double correlation = check->best().correlation;
   if (correlation <= -kLeastMapCorrelation) {
     warnings.push_back(refuse(the_map(role) + " (" + map.name + ") has its sign turned: near the surface it is " +
@@ -169,10 +180,27 @@ struct Kind {
   bool known = false, vacuum = false, given = false;
 };
 
+/// A given map that does not fit its charges is refused for that, and its kind says nothing.
 Kind kind_of(const std::shared_ptr<const MapRecipe>& recipe, const std::shared_ptr<const MapCheck>& check) {
   if (recipe) return {potential_label(*recipe), true, is_vacuum(*recipe), false};
-  if (check) return {in_words(*check), true, check->is_vacuum(), true};
-  return {};
+  if (!check || check->best().correlation < kLeastMapCorrelation) return {};
+  // Coulomb's law in a dielectric has the shape of one in vacuum.
+  constexpr double kLeastVacuum = 0.5;
+  return {in_words(*check), true, check->is_vacuum() && check->best().slope > kLeastVacuum, true};
+}
+
+/// Of source and target.
+std::pair<Kind, Kind> kinds_of(const CompareResult& result) {
+  return {kind_of(result.source_recipe, result.source_map_check),
+          kind_of(result.target_recipe, result.target_map_check)};
+}
+
+Message two_kinds(const Kind& source, const Kind& target) {
+  return "two kinds of potential are compared: the source's is " + source.words + ", the target's " + target.words;
+}
+
+bool is_vacuum_against_solvent(const Kind& source, const Kind& target) {
+  return source.known && target.known && source.vacuum != target.vacuum;
 }
 
 bool is_water_of_a_frame(const std::shared_ptr<const MapRecipe>& recipe) {
@@ -181,33 +209,44 @@ bool is_water_of_a_frame(const std::shared_ptr<const MapRecipe>& recipe) {
 
 }  // namespace
 
+void refuse_vacuum_against_solvent(const CompareResult& result) {
+  const auto [a, b] = kinds_of(result);
+  if (is_vacuum_against_solvent(a, b))
+    throw InputError(two_kinds(a, b) +
+                     "; one in vacuum is tens of times one in salt water: compute both alike, or compare them as they "
+                     "are by " +
+                     option("trust-maps", "1"));
+}
+
+std::vector<Warning> water_warnings(const CompareResult& result) {
+  if (!is_water_of_a_frame(result.source_recipe) && !is_water_of_a_frame(result.target_recipe)) return {};
+  return {
+      {"the potential of single frames with explicit water is mostly that of the water that touches the surface at "
+       "that moment: take " +
+           option("potential", "pb") +
+           " of the solute, or means over windows of frames (espdiff potential; in VMD: Average over)",
+       true}};
+}
+
 std::vector<Warning> kind_warnings(const CompareResult& result) {
-  std::vector<Warning> warnings;
-  if (is_water_of_a_frame(result.source_recipe) || is_water_of_a_frame(result.target_recipe))
-    warnings.push_back(
-        {"the potential of single frames with explicit water is mostly that of the water at the surface at that "
-         "moment: "
-         "take " +
-             option("potential", "pb") +
-             " of the solute, or means over frames (espdiff potential; in VMD: Average over)",
-         false});
-  const Kind a = kind_of(result.source_recipe, result.source_map_check),
-             b = kind_of(result.target_recipe, result.target_map_check);
-  if (!a.known || !b.known) return warnings;
-  const Message both = "two kinds of potential are compared: the source's is " + a.words + ", the target's " + b.words;
-  if (a.vacuum != b.vacuum) {
-    warnings.push_back(refuse(both + ": one in vacuum is tens of times one in salt water; compute both alike"));
-  } else if (a.words != b.words) {
-    warnings.push_back({both + "; their difference is not of the states alone", false});
-  } else if (a.given && b.given) {
-    const double s = result.source_map_check->best().slope, t = result.target_map_check->best().slope;
-    if (s > 0 && t > 0 && !within_factor(s, t, kSameSettings))
-      warnings.push_back({"the two maps are of two sizes: the source's is " + short_number(s) +
-                              " times the potential of its charges, the target's " + short_number(t) +
-                              " times; compute both with the same salt, dielectrics and temperature",
-                          false});
+  const auto [a, b] = kinds_of(result);
+  if (!a.known || !b.known) return {};
+  if (is_vacuum_against_solvent(a, b))
+    return {{two_kinds(a, b) + ": one in vacuum is tens of times one in salt water", false}};
+  if (a.words != b.words) return {{two_kinds(a, b) + "; their difference is not of the states alone", false}};
+  if (!a.given) {
+    const std::string differing = differing_parameters(*result.source_recipe, *result.target_recipe);
+    if (differing.empty()) return {};
+    return {{"the two potentials are computed with different parameters (source and target): " + differing +
+                 "; their difference is not of the states alone",
+             false}};
   }
-  return warnings;
+  const double s = result.source_map_check->best().slope, t = result.target_map_check->best().slope;
+  if (!(s > 0 && t > 0) || within_factor(s, t, kSameSettings)) return {};
+  return {{"the two maps are of two sizes: the source's is " + short_number(s) +
+               " times the potential of its charges, the target's " + short_number(t) +
+               " times; compute both with the same salt, dielectrics and temperature",
+           false}};
 }
 
 }  // namespace espdiff

@@ -13,7 +13,7 @@ class MapReferences;
 
 /// Checks a given map against the potentials of its molecule's charges: its correlation with the best of them, and the
 /// slope, which tells the unit. A map of another molecule or place, of another unit, turned in sign, or of another
-/// quantity refuses; one without a unit, or as large as another unit's, is a warning.
+/// quantity refuses; one whose title says otherwise, one without a unit, or as large as another unit's, is a warning.
 /// @param role  "source" or "target"
 /// @param check receives the regression; null where the map cannot be checked, such as without charges
 std::vector<Warning> map_warnings(const char* role, const Grid& map, const MapReferences& references,
@@ -25,8 +25,14 @@ std::vector<Warning> map_warnings(const char* role, const Grid& map, const MapRe
 void pair_warnings(const CompareInput& source, const CompareInput& target, const MapReferences* of_source,
                    const MapReferences* of_target, const CompareResult& result, std::vector<Warning>& warnings);
 
-/// What the two potentials of a result do not have in common, and single frames with explicit water. Vacuum against
-/// solvent refuses.
+/// A potential in vacuum against one in solvent: their difference is the solvent's, whatever the states.
+/// @throws InputError  where both kinds are known
+void refuse_vacuum_against_solvent(const CompareResult& result);
+
+/// Single frames with explicit water, by PME: refuses, and no option takes it as it is.
+std::vector<Warning> water_warnings(const CompareResult& result);
+
+/// What else the two potentials of a result do not have in common. None of it refuses.
 std::vector<Warning> kind_warnings(const CompareResult& result);
 
 }  // namespace espdiff

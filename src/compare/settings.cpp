@@ -311,8 +311,9 @@ std::vector<Setting> make_settings() {
       "Temperature of kT in potentials and units, K")));
   all.push_back(boolean(
       "trust-maps", "Potentials", [](auto& o) -> auto& { return o.trust_maps; },
-      "Take given maps as they are: maps that do not fit the molecules' charges, or two kinds of potential, give "
-      "warnings and are not refused"));
+      "Take given maps as they are: maps that do not fit the molecules' charges, or a potential in vacuum against one "
+      "in "
+      "water, give warnings and are not refused"));
   all.push_back(number(
       "require", "Verdict", kPositive, [](auto& o) -> auto& { return o.required_share; },
       "Share of the source's surface, and of the target's, that has to be trusted, 0 to 1; with less a result is NOT "

@@ -47,9 +47,9 @@ std::string conclusion_of(const EnsembleResult& result, const std::string& unit)
 std::string EnsembleResult::why_no_p() const {
   if (!test.no_p.empty()) return test.no_p;
   if (test.smallest_p <= options.alpha) return "";
-  return formatted("%zu against %zu %s have %zu arrangements, so that no family-wise p can be below %.3g",
+  return formatted("%zu against %zu %s have %zu permutations, so that no family-wise p can be below %.3g",
                    n_exchanged_first(), n_exchanged() - n_exchanged_first(),
-                   test.inference == Inference::kReplicates ? "replicates" : "blocks of frames", test.n_arrangements,
+                   test.inference == Inference::kReplicates ? "replicates" : "blocks of frames", test.n_permutations,
                    test.smallest_p);
 }
 

@@ -10,7 +10,7 @@
 #include "ensemble/write_ensemble.h"
 #include "report/json_number.h"
 #include "report/placement.h"
-#include "statistics/arrangements.h"
+#include "statistics/permutations.h"
 
 namespace espdiff {
 namespace {
@@ -23,7 +23,7 @@ Json options_json(const EnsembleOptions& options) {
   json["confidence"] = 1 - options.alpha;
   json["most_missing"] = options.most_missing;
   json["control"] = options.control == ErrorControl::kTfce ? "tfce" : "max-t";
-  json["most_arrangements"] = options.test.most_arrangements;
+  json["max_permutations"] = options.test.max_permutations;
   json["seed"] = options.test.seed;
   json["tfce"] = {{"extent_power", 0.5}, {"height_power", 2}, {"extent", "area"}};
   return json;
@@ -64,9 +64,9 @@ Json test_json(const EnsembleResult& result) {
   json["inference"] = replicates ? "replicates" : "within runs";
   json["method"] = replicates ? "Welch's t of replicates; exchange of their labels"
                               : "Welch's t of blocks of frames; exchange of the blocks between the runs";
-  json["n_arrangements"] = test.n_arrangements;
+  json["n_permutations"] = test.n_permutations;
   json["exact"] = test.exact;
-  json["smallest_p"] = test.n_arrangements > 0 ? Json(test.smallest_p) : Json();
+  json["smallest_p"] = test.n_permutations > 0 ? Json(test.smallest_p) : Json();
   if (!replicates)
     json["blocks"] = {{"n", test.blocks.n},
                       {"length", test.blocks.length},
@@ -95,7 +95,7 @@ Json noise_json(const EnsembleResult& result) {
 
 Json regression_json(const EnsembleFile& file, const EnsembleRegression& regression) {
   const SurfaceRegression& surface = regression.surface;
-  Json json = {{"column", regression.column.name}, {"n_arrangements", surface.n_arrangements},
+  Json json = {{"column", regression.column.name}, {"n_permutations", surface.n_permutations},
                {"exact", surface.exact},           {"smallest_p", surface.smallest_p},
                {"q2", json_number(surface.q2)},    {"q2_p", json_number(surface.q2_p)},
                {"replicates", Json::array()},      {"patches", Json::array()}};

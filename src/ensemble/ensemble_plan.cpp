@@ -11,7 +11,7 @@
 #include "io/json_values.h"
 #include "matrix/matrix_plan.h"
 #include "matrix/plan_difference.h"
-#include "statistics/arrangements.h"
+#include "statistics/permutations.h"
 
 namespace espdiff {
 namespace {
@@ -237,7 +237,7 @@ std::string design_warning(const EnsemblePlan& plan) {
   return formatted(
       "%zu against %zu replicates can be exchanged in %llu ways: no family-wise p can be below %.3g, whatever "
       "the frames are; 4 against 4 reach 0.029",
-      a, b, static_cast<unsigned long long>(count_arrangements(a, b)), p);
+      a, b, static_cast<unsigned long long>(count_permutations(a, b)), p);
 }
 
 }  // namespace espdiff

@@ -132,7 +132,7 @@ void print_regression(std::ostream& out, const EnsembleResult& result, const std
   for (const double value : regression.column.values) n += std::isfinite(value) ? 1U : 0U;
   for (const EnsembleRegression::Patch& patch : regression.patches) area += patch.patch.area;
   out << formatted("\nregression on %.40s of %zu replicates, %s%zu orders\n", regression.column.name.c_str(), n,
-                   surface.exact ? "all " : "", surface.n_arrangements);
+                   surface.exact ? "all " : "", surface.n_permutations);
   out << formatted("  predicted from the others: Q2 %.3f, p %.3g\n", surface.q2, surface.q2_p);
   out << formatted("  significant: %.1f A2 of %.1f A2, family-wise p <= %.3g by %s; smallest possible p %.3g\n", area,
                    result.tested_area_A2, result.options.alpha,
@@ -206,12 +206,12 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
   out << formatted("potential    %.70s\n", file.plan().potential.c_str());
   if (result.compares && result.test.inference == Inference::kReplicates)
     out << formatted("inference    of the states: Welch's t of replicates' means; labels exchanged in %s%zu ways\n",
-                     result.test.exact ? "all " : "", result.test.n_arrangements);
+                     result.test.exact ? "all " : "", result.test.n_permutations);
   if (result.compares && result.test.inference == Inference::kWithinRuns)
     out << "inference    of these runs only, not of the states"
         << (result.test.no_p.empty()
                 ? formatted(": %zu blocks of %zu frames exchanged in %s%zu ways", result.test.block_means.size(),
-                            result.test.blocks.length, result.test.exact ? "all " : "", result.test.n_arrangements)
+                            result.test.blocks.length, result.test.exact ? "all " : "", result.test.n_permutations)
                 : "")
         << '\n';
   out << '\n';

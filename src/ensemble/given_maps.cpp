@@ -75,9 +75,8 @@ GivenMaps::GivenMaps(const MapRequest& request, const std::vector<EnsembleReplic
 Grid GivenMaps::read_file(const std::string& path) const {
   GridOptions options;
   options.array = request_.array;
-  Grid map = read_grid_file(path, options).grid;
-  if (!request_.unit.empty()) map.unit = parse_potential_unit(request_.unit);
-  return map;
+  options.unit = request_.unit;
+  return read_grid_file(path, options).grid;
 }
 
 Grid GivenMaps::read(std::size_t replicate, std::size_t place) const {

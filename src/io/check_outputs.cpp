@@ -33,7 +33,7 @@ std::string both_names(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
+void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs, bool overwrite) {
   std::map<std::string, const std::string*> read, written;
   for (const std::string& input : inputs) {
     if (!input.empty()) read.emplace(identity_of(input), &input);
@@ -47,6 +47,13 @@ void check_outputs(const std::vector<std::string>& inputs, const std::vector<std
     if (const auto [other, is_new] = written.emplace(identity, &output); !is_new)
       throw InputError("two outputs would have one name: " + both_names(*other->second, output) +
                        "; choose another for one of them");
+  }
+  for (const std::string& output : outputs) {
+    std::error_code ignored;
+    if (!overwrite && !output.empty() && fs::is_regular_file(output, ignored))
+      throw InputError(Message(output + " exists; " + switched_on("overwrite") + " replaces it, another " +
+                               option("output") + " keeps it")
+                           .set_next({"", {{"overwrite", "", true}}}));
   }
   remove_leftovers(outputs);
 }

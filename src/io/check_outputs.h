@@ -9,7 +9,9 @@ namespace espdiff {
 /// Checks the files of one run, before it computes: one output may neither be an input nor another output, by whatever
 /// name (links of either kind, ways through folders). Empty names are passed over. Then removes what killed runs left
 /// beside the outputs (remove_leftovers()).
-/// @throws InputError that names both
-void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
+/// @param overwrite whether outputs may replace files that are there; devices are no such files
+/// @throws InputError that names both; a file that is there, with `overwrite` as the next command
+void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs,
+                   bool overwrite = true);
 
 }  // namespace espdiff

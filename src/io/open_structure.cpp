@@ -1,5 +1,5 @@
-// open_structure.cpp: which reader opens a file: ours for structures, VMD's for everything else, ours for DCD without
-// VMD.
+// open_structure.cpp: which reader opens a file: ours for structures, VMD's for everything else, ours for PSF and DCD
+// without VMD.
 #include "io/open_structure.h"
 
 #include <utility>
@@ -11,6 +11,7 @@
 #include "io/molfile_plugins.h"
 #include "io/read_topology.h"
 #include "io/sha256.h"
+#include "io/text_cursor.h"
 
 namespace espdiff {
 namespace {
@@ -20,11 +21,17 @@ FrameReader& the_frame_reader() {
   return reader;
 }
 
+bool is_psf_name(const std::string& path) {
+  const std::string ending = ".psf";
+  return path.size() > ending.size() && lower_case(path.substr(path.size() - ending.size())) == ending;
+}
+
 /// How to do without VMD: in Python as it is there, or by another front end.
 std::string without_plugins(const std::string& path) {
   if (!frame_reader_remedy().empty()) return frame_reader_remedy();
   return "; without VMD, Python's espdiff reads it by MDAnalysis (in its repository: pip install '.[mda]'), and " +
-         std::string(is_dcd_name(path) ? "DCD needs its atoms from a PDB or PQR" : "DCD is read without either");
+         std::string(is_dcd_name(path) ? "DCD needs its atoms from a PSF, PDB or PQR"
+                                       : "DCD and PSF are read without either");
 }
 
 }  // namespace
@@ -69,7 +76,9 @@ std::shared_ptr<const Molecule> TrajectoryOpener::atoms() {
     sha256_ = file.sha256();
   } else {
     const FrameReader* const other = other_reader();
-    all = other != nullptr ? other->read_atoms(topology_) : read_molfile_atoms(topology_, reader_of(topology_));
+    all = other != nullptr                             ? other->read_atoms(topology_)
+          : plugins_.empty() && is_psf_name(topology_) ? read_psf_atoms(topology_)
+                                                       : read_molfile_atoms(topology_, reader_of(topology_));
     sha256_ = sha256_of_file(topology_);
     // As for a topology beside a structure: a prmtop's radii come with its charges.
     if (is_topology(topology_)) take_topology(all, read_topology(topology_));

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "io/grid_checks.h"
+#include "io/read_dx.h"
 #include "io/text_cursor.h"
 
 namespace espdiff {
@@ -21,6 +22,7 @@ struct CubeHeader {
   std::size_t n_volumes = 1;
   bool lists_orbitals = false;  // a line with the orbitals' numbers follows the atoms
   long counts_line = 0;
+  std::string title;  // of another quantity than a potential
 };
 
 /// A count and a vector, as in the header's lines 3 to 6; the optional fifth number of line 3 in `extra`.
@@ -45,9 +47,11 @@ CountAndVector read_count_and_vector(TextCursor& cursor, const char* what) {
 }
 
 CubeHeader read_header(TextCursor& cursor, const std::string& path) {
-  cursor.rest_of_line();  // two lines of comment
-  cursor.rest_of_line();
   CubeHeader header;
+  for (int line = 0; line < 2; ++line) {  // of comment
+    const std::string title = title_of_other_quantity(cursor.rest_of_line());
+    if (header.title.empty()) header.title = title;
+  }
   const CountAndVector atoms = read_count_and_vector(cursor, "number of atoms and origin");
   header.lists_orbitals = atoms.count < 0;
   header.n_atoms = static_cast<std::size_t>(std::llabs(atoms.count));
@@ -129,6 +133,7 @@ Grid read_cube(const std::string& path, std::string_view text) {
   Grid grid;
   grid.name = path;
   grid.lattice = header.lattice;
+  grid.contradicting_title = header.title;
   // Both factors are bounded: points by check_counts(), volumes by the file's size or, just below, by division.
   const std::size_t n_points = grid.lattice.n_points();
   const bool absurd = header.n_volumes > cursor.n_bytes_left();

@@ -23,7 +23,7 @@ class DxReader {
     while (!read_header_line()) continue;
     read_values();
     read_trailer();
-    if (!says_.empty()) grid_.name += " (which calls itself '" + says_ + "')";
+    if (grid_.unit != PotentialUnit::kUnknown) grid_.contradicting_title.clear();  // a comment beside the title
     return std::move(grid_);
   }
 
@@ -194,15 +194,10 @@ class DxReader {
     }
   }
 
-  /// The unit of a potential; or another quantity that a title names, in the words of APBS and others, for messages.
+  /// The unit of a potential; or another quantity that a title names.
   void note_unit(std::string_view line) {
     if (grid_.unit == PotentialUnit::kUnknown) grid_.unit = find_potential_unit(line);
-    constexpr std::size_t kLongest = 60;
-    const std::string lower = lower_case(line);
-    for (const char* other : {"density", "charge distribution", "accessibility", "dielectric", "kappa", "laplacian"}) {
-      if (says_.empty() && lower.find(other) != std::string::npos)
-        says_ = printable(std::string(trimmed(line.substr(0, kLongest))));
-    }
+    if (grid_.contradicting_title.empty()) grid_.contradicting_title = title_of_other_quantity(line);
   }
 
   Vec3d read_vector(const char* what) {
@@ -225,7 +220,6 @@ class DxReader {
   const std::string& path_;
   TextCursor cursor_;
   Grid grid_;
-  std::string says_;
   std::size_t n_deltas_ = 0;
   long array_line_ = 0;
 };
@@ -248,6 +242,19 @@ PotentialUnit find_potential_unit(std::string_view text) {
   } catch (const InputError&) {
     return PotentialUnit::kUnknown;  // some other quantity, such as "(e/A^3)"
   }
+}
+
+std::string title_of_other_quantity(std::string_view title) {
+  constexpr std::size_t kLongest = 60;
+  const std::string lower = lower_case(title);
+  const auto has = [&](std::string_view word) { return lower.find(word) != std::string::npos; };
+  // APBS: "LAPLACIAN OF POTENTIAL (kT/e/A^2)"; Gaussian: "Electrostatic pot from Total SCF Density".
+  const bool derived = has("laplacian") || has("gradient") || has("dielectric") || has("kappa");
+  bool other = derived;
+  for (const char* word : {"density", "charge distribution", "charge map", "accessibility", "van der waals",
+                           "occupancy", "orbital", "distance", "energy"})
+    other = other || (has(word) && !has("pot"));
+  return other ? printable(std::string(trimmed(title.substr(0, kLongest)))) : std::string();
 }
 
 PotentialUnit potential_unit_of_file(const std::string& path) {

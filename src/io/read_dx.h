@@ -15,6 +15,10 @@ PotentialUnit find_potential_unit(std::string_view text);
 /// The same of a DX file, from its first lines alone; unknown also when it is absent or unreadable.
 PotentialUnit potential_unit_of_file(const std::string& path);
 
+/// The title, at most 60 characters of it, if it names another quantity than a potential, in the words of APBS, VMD,
+/// Gaussian and others: "CHARGE DENSITY (e/A^3)", "LAPLACIAN OF POTENTIAL", "occupancy"; empty otherwise.
+std::string title_of_other_quantity(std::string_view title);
+
 /// Reads an OpenDX scalar field on a regular grid: gridpositions (any axes) and one text array, z fastest in the file.
 /// The unit is find_potential_unit() of a comment or of the field's name. `path` is for messages. Takes about 30 ns a
 /// value.

@@ -149,11 +149,22 @@ std::size_t count_words(const std::string& text) {
   return n;
 }
 
+std::map<std::string, ChemicalFormula> formulas_of(gemmi::cif::Block& block) {
+  std::map<std::string, ChemicalFormula> formulas;
+  for (const auto row : block.find("_chem_comp.", {"id", "formula"})) {
+    if (auto formula = parse_formula(row.str(1))) formulas.emplace(row.str(0), std::move(*formula));
+  }
+  return formulas;
+}
+
 /// Parses the file and keeps the atoms only, so that a mistake elsewhere in it does no harm.
-gemmi::cif::Document parse_atom_site(const std::string& path, const std::string& text, bool with_assemblies) {
+/// @param formulas receives those of the file's residues
+gemmi::cif::Document parse_atom_site(const std::string& path, const std::string& text, bool with_assemblies,
+                                     std::map<std::string, ChemicalFormula>& formulas) {
   require_memory(kBytesOfCifWord * static_cast<double>(count_words(text)), path);
   gemmi::cif::Document document = call_gemmi(
       path, "not valid CIF: ", [&] { return gemmi::cif::read_memory(text.data(), text.size(), path.c_str()); });
+  if (!document.blocks.empty()) formulas = formulas_of(document.blocks.front());
   for (gemmi::cif::Block& block : document.blocks) {
     std::vector<gemmi::cif::Item> kept;  // not erase(): assigning items loses their line numbers
     const auto keep = [&](const char* prefix) {
@@ -272,16 +283,17 @@ void check_integers(const std::string& path, const std::string& text, gemmi::cif
 
 struct ParsedCif {
   gemmi::Structure structure;
+  std::map<std::string, ChemicalFormula> formulas;
   std::size_t n_operations = 0;  ///< of the assembly
 };
 
 ParsedCif parse_mmcif(const std::string& path, const std::string& text, const std::string& assembly = "") {
-  gemmi::cif::Document document = parse_atom_site(path, text, !assembly.empty());
+  ParsedCif parsed;
+  gemmi::cif::Document document = parse_atom_site(path, text, !assembly.empty(), parsed.formulas);
   if (document.blocks.empty()) throw InputError(path + ": CIF without a data block; give an mmCIF with coordinates");
   check_atom_site(path, text, document.blocks.front());
   check_residue_numbers(path, text, document.blocks.front());
   check_integers(path, text, document.blocks.front());
-  ParsedCif parsed;
   if (!assembly.empty()) parsed.n_operations = check_operations(path, document.blocks.front(), assembly);
   add_missing_columns(document.blocks.front());
   // gemmi 0.6 takes the document for itself; 0.5 only looks at it.
@@ -335,7 +347,9 @@ Molecule read_mmcif(const std::string& path, const std::string& text, const Stru
     const AtomEntry entry = make_entry(chosen);
     if (builder.wants(entry.residue_name, entry.hetero)) builder.add(entry);
   }
-  return builder.finish();
+  Molecule molecule = builder.finish();
+  molecule.formulas = std::move(parsed.formulas);
+  return molecule;
 }
 
 int count_mmcif_models(const std::string& path, const std::string& text) {

@@ -56,8 +56,17 @@ GridFile read_grid_file(const std::string& path, const GridOptions& options) {
     if (kind != FileKind::kDx && kind != FileKind::kCube) refuse_as_grid(path, kind);
     refuse_array(path, options);
   });
-  std::string sha256 = file.sha256;
-  return {parse_grid(std::move(file), kind, options), std::move(sha256)};
+  GridFile read{{}, file.sha256};
+  read.grid = parse_grid(std::move(file), kind, options);
+  if (!options.unit.empty()) take_unit(options.unit, read.grid);
+  return read;
+}
+
+void take_unit(const std::string& text, Grid& map) {
+  const PotentialUnit unit = parse_potential_unit(text);
+  if (map.unit != PotentialUnit::kUnknown && unit != map.unit)
+    map.contradicting_title = "potential (" + to_string(map.unit) + ")";
+  map.unit = unit;
 }
 
 Grid read_grid(const std::string& path, const GridOptions& options) {

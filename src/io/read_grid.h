@@ -9,6 +9,7 @@ namespace espdiff {
 
 struct GridOptions {
   std::string array;  ///< VTI point array to take; empty takes the active scalars, or the only array
+  std::string unit;   ///< of the potential, by take_unit(); empty takes the file's
 };
 
 /// Reads a grid: OpenDX as APBS, PMEPot and VMD write it (any axes; gzip too), VTI (ascii, binary, appended; any
@@ -28,5 +29,9 @@ struct GridFile {
 };
 /// @throws as read_grid()
 GridFile read_grid_file(const std::string& path, const GridOptions& options = {});
+
+/// Gives the map this unit; one that the file stated, and that differs, becomes its contradicting title.
+/// @throws InputError as parse_potential_unit()
+void take_unit(const std::string& text, Grid& map);
 
 }  // namespace espdiff

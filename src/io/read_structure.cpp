@@ -203,7 +203,9 @@ Molecule StructureFile::read(const StructureOptions& options) const {
     return read_pqr(path, model, options);
   }
 #ifdef ESPDIFF_HAVE_GEMMI
-  return read_pdb(path, model, options.assembly.empty() ? std::string() : assembly_remarks(text), options);
+  Molecule molecule = read_pdb(path, model, options.assembly.empty() ? std::string() : assembly_remarks(text), options);
+  molecule.formulas = formulas_in_pdb(text);
+  return molecule;
 #else
   lack_gemmi(path, "PDB");
 #endif

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/formatted.h"
@@ -32,8 +34,26 @@ void check_range(const std::string& path, long line, const std::string& what, do
   throw FormatError(path, line, what + formatted(" is %g; %g to %g were expected", value, least, most));
 }
 
+/// Of the words of an atom. A residue's number may have an insertion code behind it.
+AtomEntry psf_entry(const std::vector<std::string_view>& words, long line) {
+  AtomEntry entry;
+  std::string_view number = words[2];
+  if (!number.empty() && (number.back() < '0' || number.back() > '9')) {
+    entry.insertion_code = number.back();
+    number.remove_suffix(1);
+  }
+  long long residue = 0;
+  if (parse_integer(number, residue)) entry.residue_number = static_cast<int>(residue);
+  entry.chain = words[1];
+  entry.residue_name = words[3];
+  entry.name = words[4];
+  entry.line = line;
+  return entry;
+}
+
 /// Words of an atom: number, segment, residue number, residue, atom, type, charge, mass.
-void read_psf(const std::string& text, Topology& topology) {
+/// @param builder gets the atoms with their residues; null to leave them out
+void read_psf(const std::string& text, Topology& topology, MoleculeBuilder* builder) {
   TextCursor cursor(text, topology.path);
   while (!cursor.at_end()) {
     const auto words = split_words(cursor.rest_of_line());
@@ -52,6 +72,7 @@ void read_psf(const std::string& text, Topology& topology) {
       check_range(topology.path, cursor.line(), "the charge", charge, -kMostCharge, kMostCharge);
       topology.names.emplace_back(atom[4]);
       topology.charges.push_back(static_cast<float>(charge));
+      if (builder != nullptr) builder->add(psf_entry(atom, cursor.line()));
     }
     return;
   }
@@ -178,11 +199,26 @@ Topology read_topology(const std::string& path) {
   unify_line_ends(file.content);
   topology.sha256 = file.sha256;
   if (kind == FileKind::kPsf) {
-    read_psf(file.content, topology);
+    read_psf(file.content, topology, nullptr);
   } else {
     read_prmtop(file.content, topology);
   }
   return topology;
+}
+
+Molecule read_psf_atoms(const std::string& path) {
+  Topology topology;
+  topology.path = path;
+  FileContent file = read_input(path, [&](std::string_view head) {
+    const FileKind kind = recognise(head);
+    if (kind != FileKind::kPsf) throw InputError(path + ": this looks like " + describe(kind) + ", and is no PSF");
+  });
+  unify_line_ends(file.content);
+  MoleculeBuilder builder(path, {1, true, true, {}});
+  read_psf(file.content, topology, &builder);
+  Molecule molecule = builder.finish();
+  molecule.charges = std::move(topology.charges);
+  return molecule;
 }
 
 void take_topology(Molecule& molecule, const Topology& topology) {

@@ -23,6 +23,10 @@ bool is_topology(const std::string& path);
 /// @throws IoError, InputError (neither of them), FormatError (with line: sections missing, cut or malformed)
 Topology read_topology(const std::string& path);
 
+/// The atoms of a PSF, all at the origin, with residues, and charges; radii are by element.
+/// @throws as read_topology(); InputError (it is none)
+Molecule read_psf_atoms(const std::string& path);
+
 /// Gives a molecule the charges (and radii, if any) of a topology that lists the same atoms in the same order.
 /// @param everything all atoms of the file
 /// @throws InputError (other numbers of atoms, another atom name, with the first of them)

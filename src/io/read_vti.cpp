@@ -209,6 +209,7 @@ Grid read_vti(const VtkXmlFile& file, const GridOptions& options) {
     const auto hole = std::find_if(grid.values.begin(), grid.values.end(), [](float v) { return std::isnan(v); });
     if (hole != grid.values.end()) file.fail(file.data_set(), "the pieces of the VTI file overlap and leave a gap");
     grid.unit = read_unit(file);
+    if (grid.unit == PotentialUnit::kUnknown) grid.contradicting_title = title_of_other_quantity(name_of(array));
     return grid;
   } catch (const std::bad_alloc&) {
     throw MemoryError(path + ": the VTI map does not fit into memory; crop or coarsen it");

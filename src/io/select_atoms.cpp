@@ -161,6 +161,7 @@ Molecule keep_atoms(const Molecule& molecule, const std::vector<bool>& keep) {
   kept.name = molecule.name;
   kept.radii_origin = molecule.radii_origin;
   kept.left_out = molecule.left_out;
+  kept.formulas = molecule.formulas;
   std::vector<std::int32_t> new_residue(molecule.residues.size(), -1);
   for (std::size_t i = 0; i < molecule.size(); ++i) {
     if (!keep[i]) continue;

@@ -169,9 +169,9 @@ Variant read_variant(const VariantFiles& files, const StructureFile& file, Molec
   if (files.map.empty()) return variant;
   GridOptions grid;
   grid.array = map_array;
+  grid.unit = files.map_unit;
   GridFile map = read_grid_file(files.map, grid);
   variant.map = std::move(map.grid);
-  if (!files.map_unit.empty()) variant.map->unit = parse_potential_unit(files.map_unit);
   variant.inputs.push_back({"map", files.map, std::move(map.sha256)});
   return variant;
 }

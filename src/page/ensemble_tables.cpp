@@ -56,7 +56,7 @@ TableJson test_rows(const TableJson& record, const EnsembleNames& names) {
   if (const auto why = test.find("no_p_because"); why != test.end() && why->is_string())
     add_row(rows, "No p", "Why none can be given", why->get<std::string>());
   add_row(rows, "Permutations", test.value("method", ""),
-          short_number(test, "n_arrangements") + (test.value("exact", false) ? ", all there are" : ""));
+          short_number(test, "n_permutations") + (test.value("exact", false) ? ", all there are" : ""));
   return rows;
 }
 

@@ -11,11 +11,12 @@
 namespace espdiff {
 
 struct FrameMap {
-  std::vector<int> frames;          ///< [column] in rising order
-  std::vector<std::string> labels;  ///< [row]
-  std::vector<double> values;       ///< [row * n_frames + column]; NaN is left empty
-  std::string title, unit;          ///< of the colour bar
-  double low = 0, high = 0;         ///< ends of the colours; if equal, the range of the values is used
+  std::vector<int> frames;              ///< [column] in rising order
+  std::vector<std::string> labels;      ///< [row]
+  std::vector<std::string> partners{};  ///< [row] the label's counterpart, which is not drawn; empty if it is the same
+  std::vector<double> values;           ///< [row * n_frames + column]; NaN is left empty
+  std::string title, unit;              ///< of the colour bar
+  double low = 0, high = 0;             ///< ends of the colours; if equal, the range of the values is used
 };
 
 /// Lowest and highest value; symmetric about 0 where there are both signs. @throws InputError (there is none)

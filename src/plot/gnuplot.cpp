@@ -79,9 +79,13 @@ std::string gnuplot_palette(bool diverging) {
 
 std::string gnuplot_number(double value) { return std::isfinite(value) ? csv_number(value, 9) : "NaN"; }
 
-std::string run_gnuplot(const std::string& script) {
+void require_gnuplot() {
   if (find_program("gnuplot").empty())
     throw DeviceError("plots are drawn by gnuplot, which is not installed; install it (Debian: gnuplot-nox)");
+}
+
+std::string run_gnuplot(const std::string& script) {
+  require_gnuplot();
   // Without the user's own ~/.gnuplot (-d).
   const ProgramResult result = run_program({{"gnuplot", "-d"}, script, {}, 0, {}});
   if (result.status != 0 || result.output.empty())

@@ -32,8 +32,11 @@ std::string gnuplot_number(double value);
 /// Sets the palette of a map of values: diverging_colour() from red to blue, or sequential_colour().
 std::string gnuplot_palette(bool diverging);
 
+/// @throws DeviceError (gnuplot is missing, with the package to install)
+void require_gnuplot();
+
 /// Runs a script and returns the picture.
-/// @throws DeviceError (gnuplot is missing, with the package to install; it failed, with its message)
+/// @throws as require_gnuplot(); DeviceError (it failed, with its message)
 std::string run_gnuplot(const std::string& script);
 
 /// Runs the script and writes the picture to a file.

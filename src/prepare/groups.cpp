@@ -111,25 +111,84 @@ void charge_haem(Molecule& group) {
   }
 }
 
+/// Hydrogens without those that the net charge explains: bonds alone determine it, whatever is protonated.
+int hydrogens_at_no_charge(std::size_t n_hydrogens, double net_charge) {
+  return static_cast<int>(n_hydrogens) - static_cast<int>(std::lround(net_charge));
+}
+
+/// What the file's formula says of the hydrogens; nothing without one, or where heavy atoms are missing, as where the
+/// ligand is bound to others. A residue within a chain lacks water.
+std::optional<int> hydrogens_of_formula(const Molecule& molecule, const Molecule& group, bool in_chain) {
+  const auto found = molecule.formulas.find(group.residues.front().name);
+  if (found == molecule.formulas.end()) return std::nullopt;
+  ChemicalFormula formula = found->second;
+  const int n_hydrogens = formula.atoms["H"] + formula.atoms["D"];
+  if (in_chain) --formula.atoms["O"];
+  for (const Atom& atom : group.atoms) {
+    if (!is_hydrogen_atom(atom)) --formula.atoms[atom.element];
+  }
+  for (const auto& [element, n] : formula.atoms) {
+    if (element != "H" && element != "D" && n != 0) return std::nullopt;
+  }
+  return n_hydrogens - formula.charge - (in_chain ? 2 : 0);
+}
+
+std::size_t count_hydrogens(const Molecule& group) {
+  return static_cast<std::size_t>(std::count_if(group.atoms.begin(), group.atoms.end(), is_hydrogen_atom));
+}
+
+/// Whether the file's formula confirms the bonds. A warning says where it does not.
+bool agrees_with_formula(Groups& groups, const Molecule& molecule, const Molecule& group, double net_charge,
+                         bool in_chain) {
+  const std::optional<int> wanted = hydrogens_of_formula(molecule, group, in_chain);
+  const int found = hydrogens_at_no_charge(count_hydrogens(group), net_charge);
+  if (wanted && *wanted != found)
+    groups.warnings.push_back(residue_label(group.residues.front()) + " has " + std::to_string(found) +
+                              " hydrogens (without charge) by the bonds that Open Babel perceives, and " +
+                              std::to_string(*wanted) +
+                              " by the file's formula, so that its charges are wrong; give a MOL2 file of it");
+  return wanted && *wanted == found;
+}
+
 void charge_other_ligand(Groups& groups, Molecule& group, const Molecule& molecule, std::size_t residue, double ph,
                          const Progress& progress) {
-  const std::size_t n_given = group.size();
   ChargedLigand ligand = charge_by_open_babel(group, ph, molecule.name, progress);
+  const std::size_t n_given = ligand.molecule.size() - ligand.n_hydrogens_added;
   group = std::move(ligand.molecule);
+  const bool agrees = agrees_with_formula(groups, molecule, group, ligand.net_charge, false);
   const std::size_t n_dropped = drop_hydrogens_at_bonds(group, n_given, molecule, residue);
-  const std::string label = residue_label(group.residues.front());
-  groups.lines.push_back(label + ": " + in_elementary_charges(std::round(ligand.net_charge)) + ", " +
-                         std::to_string(ligand.n_hydrogens_added - n_dropped) +
-                         " hydrogens added, by Open Babel (Gasteiger's charges, pH " + formatted("%g", ph) + ")");
+  const std::string label = residue_label(group.residues.front()),
+                    charge = in_elementary_charges(std::round(ligand.net_charge));
+  groups.lines.push_back(
+      label + ": " + charge + ", " + std::to_string(ligand.n_hydrogens_added - n_dropped) + " hydrogens added" +
+      (ligand.n_hydrogens_replaced == 0 ? std::string()
+                                        : " for the file's " + std::to_string(ligand.n_hydrogens_replaced)) +
+      ", by Open Babel (Gasteiger's charges, pH " + formatted("%g", ph) +
+      (agrees ? "; bonds agree with the file's formula)" : ")"));
   const std::optional<int> usual = charge_of_group(group.residues.front().name);
   // Gasteiger's charges of phosphates do not sum up to the whole number.
   const double whole = usual ? *usual : std::round(ligand.net_charge);
   const auto n = static_cast<double>(group.size());
   for (float& q : group.charges) q += static_cast<float>((whole - ligand.net_charge) / n);
-  if (!usual || std::fabs(ligand.net_charge - *usual) <= 0.5) return;
-  groups.warnings.push_back(label + " has " + in_elementary_charges(std::round(ligand.net_charge)) +
-                            " by the bonds that Open Babel perceives and usually " + in_elementary_charges(*usual) +
+  if (!usual) {
+    groups.guessed.push_back(label + " (" + charge + ")");
+    return;
+  }
+  if (std::fabs(ligand.net_charge - *usual) <= 0.5) return;
+  groups.warnings.push_back(label + " has " + charge + " by the bonds that Open Babel perceives and usually " +
+                            in_elementary_charges(*usual) +
                             ", to which its charges were shifted evenly; a MOL2 file of it would be exact");
+}
+
+std::string guess_in_words(const std::vector<std::string>& ligands) {
+  constexpr std::size_t kMostNamed = 6;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(ligands.size(), kMostNamed); ++i) names += (i == 0 ? "" : ", ") + ligands[i];
+  if (ligands.size() > kMostNamed) names += " and " + std::to_string(ligands.size() - kMostNamed) + " more";
+  return (ligands.size() == 1 ? std::string("the net charge of a ligand is")
+                              : "the net charges of " + std::to_string(ligands.size()) + " ligands are") +
+         " a guess by Open Babel's rules, which no other source confirms: " + names +
+         "; where one is wrong, give a MOL2 file of it";
 }
 
 bool has_haem_names(const Molecule& molecule, const std::vector<std::size_t>& atoms) {
@@ -153,12 +212,13 @@ std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vect
   static const std::set<std::string_view> caps{"ACE", "NME", "NHE", "NH2", "N-M"};
   const auto atoms = atoms_of_residues(molecule);
   const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
+  const bool has_open_babel = options.ligands_auto && !find_open_babel().empty();
   std::vector<GroupSource> sources(kinds.size(), GroupSource::kNone);
   for (std::size_t r = 0; r < kinds.size(); ++r) {
     const std::string& name = molecule.residues[r].name;
     if (atoms[r].empty() || ligand_of[r] >= 0 || caps.count(name) > 0) continue;
-    if (kinds[r] == ResidueKind::kAminoAcid)
-      sources[r] = amino_acid_source(molecule, r, atoms[r], options.ligands_auto);
+    if (kinds[r] == ResidueKind::kAminoAcid) sources[r] = amino_acid_source(molecule, r, atoms[r], has_open_babel);
+    if (kinds[r] == ResidueKind::kNucleotide) sources[r] = nucleotide_source(molecule, r, atoms, has_open_babel);
     if (kinds[r] != ResidueKind::kOther) continue;
     if (is_additive(name)) {
       sources[r] = GroupSource::kAdditive;
@@ -168,7 +228,7 @@ std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vect
       sources[r] = GroupSource::kIon;
     } else if (is_haem(name) && has_haem_names(molecule, atoms[r])) {
       sources[r] = GroupSource::kHaem;
-    } else if (options.ligands_auto) {
+    } else if (has_open_babel) {
       sources[r] = GroupSource::kOpenBabel;
     }
   }
@@ -191,10 +251,13 @@ Groups charge_groups(const Molecule& molecule, const std::vector<GroupSource>& s
     }
     if (sources[r] == GroupSource::kModified) {
       int net_charge = 0;
-      append_residue(groups.modified, charge_modified_residue(molecule, r, options.ph, net_charge, progress));
+      const Molecule modified = charge_modified_residue(molecule, r, options.ph, net_charge, progress);
+      const bool agrees = agrees_with_formula(groups, molecule, modified, net_charge, true);
+      append_residue(groups.modified, modified);
+      groups.guessed.push_back(label + " (" + in_elementary_charges(net_charge) + ")");
       groups.lines.push_back(label + ": " + in_elementary_charges(net_charge) +
                              ", in its chain, by Open Babel (Gasteiger's charges, pH " + formatted("%g", options.ph) +
-                             ")");
+                             (agrees ? "; bonds agree with the file's formula)" : ")"));
       continue;
     }
     if (sources[r] == GroupSource::kAdditive || sources[r] == GroupSource::kTorn) {
@@ -218,6 +281,7 @@ Groups charge_groups(const Molecule& molecule, const std::vector<GroupSource>& s
     }
     append_residue(groups.charged, group);
   }
+  if (!groups.guessed.empty()) groups.warnings.push_back(guess_in_words(groups.guessed));
   return groups;
 }
 

@@ -47,7 +47,7 @@ bool is_proton(const Atom& atom) { return atom.element == "H" || atom.element ==
 std::optional<std::size_t> atom_named(const Molecule& molecule, const std::vector<std::size_t>& atoms,
                                       std::string_view name) {
   for (const std::size_t i : atoms) {
-    if (molecule.atoms[i].name == name) return i;
+    if (normalized_atom_name(molecule.atoms[i].name) == name) return i;
   }
   return std::nullopt;
 }
@@ -88,26 +88,78 @@ void name_deoxynucleotides(Molecule& molecule, Preparation& preparation) {
   }
 }
 
-/// The neighbours' atoms that stand in for the chain: C, CA and O before N, or N and CA behind C.
+/// Longer than a bond of phosphorus and oxygen, or of carbon and nitrogen.
+constexpr double kChainBond_A = 1.8;
+
+/// The atom of another residue that is bound to an atom of this one; both by name.
+std::optional<std::size_t> bound_atom(const Molecule& molecule, std::size_t residue,
+                                      const std::vector<std::vector<std::size_t>>& atoms, const char* own,
+                                      const char* bound) {
+  const std::optional<std::size_t> end = atom_named(molecule, atoms[residue], own);
+  for (std::size_t r = 0; end && r < atoms.size(); ++r) {
+    const std::optional<std::size_t> other = r == residue ? std::nullopt : atom_named(molecule, atoms[r], bound);
+    if (other && norm(molecule.positions[*other] - molecule.positions[*end]) <= kChainBond_A) return other;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::size_t> atoms_named(const Molecule& molecule, const std::string& name) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < molecule.size(); ++i) {
+    if (normalized_atom_name(molecule.atoms[i].name) == name) found.push_back(i);
+  }
+  return found;
+}
+
+bool is_bound(const Molecule& molecule, std::size_t atom, const std::vector<std::size_t>& others) {
+  return std::any_of(others.begin(), others.end(), [&](std::size_t i) {
+    return molecule.atoms[i].residue != molecule.atoms[atom].residue &&
+           norm(molecule.positions[i] - molecule.positions[atom]) <= kChainBond_A;
+  });
+}
+
+/// The phosphate of a chain's first nucleotide is dropped: no force field has it.
+void drop_end_phosphates(Molecule& molecule, Preparation& preparation) {
+  static const std::set<std::string_view> phosphate = {"P", "OP1", "OP2", "OP3", "O3P", "HOP2", "HOP3"};
+  const auto atoms = atoms_of_residues(molecule);
+  const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
+  const std::vector<std::size_t> phosphorus = atoms_named(molecule, "P"), oxygens = atoms_named(molecule, "O3'");
+  std::vector<bool> keep(molecule.size(), true);
+  std::string ends;
+  for (const std::size_t p : phosphorus) {
+    const auto r = static_cast<std::size_t>(molecule.atoms[p].residue);
+    if (kinds[r] != ResidueKind::kNucleotide || is_bound(molecule, p, oxygens)) continue;
+    const bool is_chain = std::any_of(oxygens.begin(), oxygens.end(), [&](std::size_t i) {
+      return molecule.atoms[i].residue == molecule.atoms[p].residue && is_bound(molecule, i, phosphorus);
+    });
+    if (!is_chain) continue;  // a ligand such as AMP
+    for (const std::size_t i : atoms[r]) keep[i] = phosphate.count(normalized_atom_name(molecule.atoms[i].name)) == 0;
+    ends += (ends.empty() ? "" : ", ") + residue_in_words(molecule.residues[r]);
+  }
+  if (ends.empty()) return;
+  molecule = keep_atoms(molecule, keep);
+  preparation.warnings.push_back(
+      "the phosphate at the 5' end was left out (-2 e), since no force field of PDB2PQR has it: " + ends);
+}
+
+/// The neighbours' atoms that stand in for the chain: C, CA and O before N, or N and CA behind C; O3' and C3' before P,
+/// or P behind O3'.
 std::vector<std::size_t> cap_atoms(const Molecule& molecule, std::size_t residue,
                                    const std::vector<std::vector<std::size_t>>& atoms) {
-  constexpr double kPeptideBond_A = 1.8;
   std::vector<std::size_t> cap;
   const auto add_neighbour = [&](const char* own, const char* bound, std::initializer_list<const char*> names) {
-    const std::optional<std::size_t> end = atom_named(molecule, atoms[residue], own);
-    if (!end) return;
-    for (std::size_t r = 0; r < atoms.size(); ++r) {
-      const std::optional<std::size_t> other = r == residue ? std::nullopt : atom_named(molecule, atoms[r], bound);
-      if (!other || norm(molecule.positions[*other] - molecule.positions[*end]) > kPeptideBond_A) continue;
-      for (const char* name : names) {
-        const std::optional<std::size_t> i = atom_named(molecule, atoms[r], name);
-        if (i) cap.push_back(*i);
-      }
-      return;
+    const std::optional<std::size_t> other = bound_atom(molecule, residue, atoms, own, bound);
+    if (!other) return;
+    const auto r = static_cast<std::size_t>(molecule.atoms[*other].residue);
+    for (const char* name : names) {
+      const std::optional<std::size_t> i = atom_named(molecule, atoms[r], name);
+      if (i) cap.push_back(*i);
     }
   };
   add_neighbour("N", "C", {"C", "CA", "O"});
   add_neighbour("C", "N", {"N", "CA"});
+  add_neighbour("P", "O3'", {"O3'", "C3'"});
+  add_neighbour("O3'", "P", {"P"});
   return cap;
 }
 
@@ -149,6 +201,13 @@ void add_phosphate(Molecule& residue, const Molecule& before, const Phosphorylat
   }
 }
 
+/// A nucleotide of which a modified one has the ring: guanine or uracil, which have fewest atoms beside it to lose.
+std::string parent_nucleotide(const Molecule& molecule, const std::vector<std::size_t>& atoms) {
+  const std::string base = atom_named(molecule, atoms, "N9") ? "G" : "U";
+  if (atom_named(molecule, atoms, "O2'")) return base;
+  return base == "G" ? "DG" : "DC";
+}
+
 }  // namespace
 
 Molecule residue_alone(const Molecule& molecule, std::size_t residue, const std::vector<std::size_t>& atoms) {
@@ -180,6 +239,7 @@ void append_residue(Molecule& all, const Molecule& one) {
 void rename_residues(Molecule& molecule, Preparation& preparation) {
   replace_selenomethionine(molecule, preparation);
   name_deoxynucleotides(molecule, preparation);
+  drop_end_phosphates(molecule, preparation);
 }
 
 bool is_known_amino_acid(const std::string& name) {
@@ -207,6 +267,14 @@ GroupSource amino_acid_source(const Molecule& molecule, std::size_t residue, con
   return ligands_auto ? GroupSource::kModified : GroupSource::kNone;
 }
 
+GroupSource nucleotide_source(const Molecule& molecule, std::size_t residue,
+                              const std::vector<std::vector<std::size_t>>& atoms, bool ligands_auto) {
+  if (residue_letter(molecule.residues[residue].name) != '?' || !ligands_auto) return GroupSource::kNone;
+  const bool in_chain =
+      bound_atom(molecule, residue, atoms, "P", "O3'") || bound_atom(molecule, residue, atoms, "O3'", "P");
+  return in_chain ? GroupSource::kModified : GroupSource::kOpenBabel;
+}
+
 Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, double ph, int& net_charge,
                                  const Progress& progress) {
   const auto atoms = atoms_of_residues(molecule);
@@ -217,8 +285,12 @@ Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, 
   const std::size_t n_own = own.size();
   std::vector<std::size_t> with_cap = own;
   for (const std::size_t i : cap_atoms(molecule, residue, atoms)) with_cap.push_back(i);
-  const ChargedLigand ligand =
-      charge_by_open_babel(residue_alone(molecule, residue, with_cap), ph, molecule.name, progress);
+  Molecule fragment = residue_alone(molecule, residue, with_cap);
+  // The next phosphate would be one more charge: a methyl group stands in for it.
+  for (std::size_t i = n_own; i < with_cap.size(); ++i) {
+    if (fragment.atoms[i].element == "P") fragment.atoms[i].name = fragment.atoms[i].element = "C";
+  }
+  const ChargedLigand ligand = charge_by_open_babel(fragment, ph, molecule.name, progress);
   std::vector<std::size_t> kept;
   double sum = 0;
   for (std::size_t i = 0; i < ligand.molecule.size(); ++i) {
@@ -235,16 +307,24 @@ Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, 
 
 Molecule with_known_residues(const Molecule& molecule, const std::vector<GroupSource>& sources) {
   static const std::set<std::string_view> glycine = {"N", "CA", "C", "O", "OXT"};
+  static const std::set<std::string_view> nucleotide = {"P",   "OP1", "OP2", "O5'", "C5'", "C4'", "O4'",
+                                                        "C3'", "O3'", "C2'", "O2'", "C1'", "N1",  "C2",
+                                                        "N3",  "C4",  "C5",  "C6",  "N7",  "C8",  "N9"};
   const auto atoms = atoms_of_residues(molecule);
+  const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
   Molecule known = molecule;
   std::vector<bool> keep(molecule.size(), true);
   for (std::size_t r = 0; r < sources.size(); ++r) {
     if (sources[r] != GroupSource::kPhosphate && sources[r] != GroupSource::kModified) continue;
-    const bool is_modified = sources[r] == GroupSource::kModified;
-    known.residues[r].name = is_modified ? "GLY" : phosphorylated(molecule.residues[r].name)->parent;
+    const bool is_modified = sources[r] == GroupSource::kModified, is_base = kinds[r] == ResidueKind::kNucleotide;
+    const std::set<std::string_view>& parent = is_base ? nucleotide : glycine;
+    known.residues[r].name = !is_modified ? std::string(phosphorylated(molecule.residues[r].name)->parent)
+                             : is_base    ? parent_nucleotide(molecule, atoms[r])
+                                          : "GLY";
     for (const std::size_t i : atoms[r]) {
       const Atom& atom = molecule.atoms[i];
-      keep[i] = is_modified ? glycine.count(atom.name) > 0 : !is_phosphate_atom(atom) && !is_proton(atom);
+      keep[i] = is_modified ? parent.count(normalized_atom_name(atom.name)) > 0
+                            : !is_phosphate_atom(atom) && !is_proton(atom);
       known.atoms[i].hetero = false;
     }
   }

@@ -13,7 +13,8 @@ namespace espdiff {
 struct Preparation;
 
 /// Gives residues the names by which the force fields have them: selenomethionine becomes methionine, with sulfur;
-/// deoxynucleotides under the names of RNA, as in files of before 2007, get those of DNA.
+/// deoxynucleotides under the names of RNA, as in files of before 2007, get those of DNA. Drops the phosphate at the 5'
+/// end of a chain, with a warning: no force field has one.
 void rename_residues(Molecule& molecule, Preparation& preparation);
 
 /// Where the charges of an amino acid come from: kNone for those that the force fields have. kPhosphate for SEP, TPO
@@ -23,19 +24,25 @@ void rename_residues(Molecule& molecule, Preparation& preparation);
 GroupSource amino_acid_source(const Molecule& molecule, std::size_t residue, const std::vector<std::size_t>& atoms,
                               bool ligands_auto);
 
+/// Where the charges of a nucleotide come from: kNone for those that the force fields have; kModified for other names
+/// within a chain, kOpenBabel for those beside one (AMP, FMN), if ligands_auto.
+/// @param atoms [residue] from atoms_of_residues()
+GroupSource nucleotide_source(const Molecule& molecule, std::size_t residue,
+                              const std::vector<std::vector<std::size_t>>& atoms, bool ligands_auto);
+
 /// Whether PDB2PQR's force fields have an amino acid of this name; the names of ends (NALA) and of protonation states
 /// count.
 bool is_known_amino_acid(const std::string& name);
 
 /// The residue with hydrogens and charges by Open Babel. Neighbours in the chain stand in as an acetyl group at N and a
-/// methylamide at C, which are taken away again; then each atom of the residue gets an equal share of what its charges
-/// lack of the whole number.
+/// methylamide at C, or methyl groups at P and O3' of a nucleotide, which are taken away again; then each atom of the
+/// residue gets an equal share of what its charges lack of the whole number.
 /// @param net_charge receives that number  @throws as charge_by_open_babel()
 Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, double ph, int& net_charge,
                                  const Progress& progress);
 
 /// What PDB2PQR gets: phosphorylated residues (kPhosphate) as SER, THR or TYR without the phosphate, modified ones
-/// (kModified) as glycine in their place, so that chains are whole.
+/// (kModified) as glycine, or as a nucleotide of their ring, in their place, so that chains are whole.
 /// @param sources [residue]
 Molecule with_known_residues(const Molecule& molecule, const std::vector<GroupSource>& sources);
 

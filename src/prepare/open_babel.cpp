@@ -14,6 +14,7 @@
 #include "io/elements.h"
 #include "io/read_mol2.h"
 #include "io/run_program.h"
+#include "io/select_atoms.h"
 #include "io/temporary_folder.h"
 #include "io/write_pdb.h"
 
@@ -44,6 +45,15 @@ std::string ligand_as_pdb(Molecule ligand) {
   return text.str();
 }
 
+/// A MOL2 file is the way on, or to leave the residue out, which is the next command.
+template <class Error = InputError>
+Error refused(const Molecule& ligand, const std::string& problem) {
+  const std::string selection = "(" + ligand.residues.front().name + ")";
+  return Error(Message(problem + "; give a MOL2 file of it with hydrogens (" + option("ligand", "FILE") +
+                       "), or leave it out (" + option("leave-out", selection) + ")")
+                   .set_next({"", {{"leave-out", selection}}}));
+}
+
 Mol2File run_open_babel(const std::string& program, const Molecule& ligand, double ph, const std::string& what,
                         const Progress& progress) {
   const TemporaryFolder folder;
@@ -65,25 +75,33 @@ Mol2File run_open_babel(const std::string& program, const Molecule& ligand, doub
   std::error_code ignored;
   const auto n_bytes = std::filesystem::file_size(folder.file("ligand.mol2"), ignored);
   if (result.status != 0 || ignored || n_bytes == 0)
-    throw DeviceError(what + ": Open Babel cannot prepare it (status " + std::to_string(result.status) +
-                      "); give a MOL2 file of it with hydrogens (" + option("ligand", "FILE") + ")");
+    throw refused<DeviceError>(ligand, what + ": Open Babel cannot prepare it");
   return read_mol2(folder.file("ligand.mol2"));
 }
 
-}  // namespace
+bool is_proton_of(const Atom& atom) { return atom.element == "H" || atom.element == "D"; }
 
-std::string find_open_babel() {
-  const char* const named = std::getenv("ESPDIFF_OBABEL");
-  return find_program(named != nullptr && *named != '\0' ? named : "obabel");
+/// Whether the file begins with the ligand's atoms, and adds hydrogens only.
+bool continues(const Molecule& ligand, const Mol2File& mol2) {
+  if (mol2.atoms.size() < ligand.size()) return false;
+  for (std::size_t i = 0; i < mol2.atoms.size(); ++i) {
+    const bool is_hydrogen = mol2.atoms[i].element == "H";
+    if (i >= ligand.size() ? !is_hydrogen
+                           : norm(mol2.atoms[i].position - ligand.positions[i]) > kReturnedPlace_A ||
+                                 is_hydrogen != is_proton_of(ligand.atoms[i]))
+      return false;
+  }
+  return true;
 }
 
-ChargedLigand charge_by_open_babel(const Molecule& ligand, double ph, const std::string& name,
-                                   const Progress& progress) {
-  const std::string what = name + ": " + residue_label(ligand.residues.front());
-  const std::string program = find_open_babel();
-  if (program.empty())
-    throw DeviceError(what + ": Open Babel, which makes its hydrogens and charges, is not there; " + kOpenBabelRemedy);
-  const Mol2File mol2 = run_open_babel(program, ligand, ph, what, progress);
+Molecule without_hydrogens(const Molecule& ligand) {
+  std::vector<bool> keep;
+  for (const Atom& atom : ligand.atoms) keep.push_back(!is_proton_of(atom));
+  return keep_atoms(ligand, keep);
+}
+
+/// The ligand with what the file adds.
+ChargedLigand with_hydrogens(const Molecule& ligand, const Mol2File& mol2) {
   ChargedLigand charged;
   Molecule& molecule = charged.molecule;
   molecule = ligand;
@@ -101,18 +119,35 @@ ChargedLigand charge_by_open_babel(const Molecule& ligand, double ph, const std:
     molecule.charges.push_back(static_cast<float>(atom.charge));
     charged.net_charge += atom.charge;
   }
-  const auto is_same = [&](std::size_t i) {
-    return norm(mol2.atoms[i].position - ligand.positions[i]) <= kReturnedPlace_A &&
-           (mol2.atoms[i].element == "H") == (ligand.atoms[i].element == "H" || ligand.atoms[i].element == "D");
-  };
-  bool all_same = mol2.atoms.size() >= ligand.size();
-  for (std::size_t i = 0; all_same && i < mol2.atoms.size(); ++i)
-    all_same = i < ligand.size() ? is_same(i) : mol2.atoms[i].element == "H";
-  if (!all_same)
-    throw InputError(what + ": Open Babel returned other atoms than it got; give a MOL2 file of it with hydrogens (" +
-                     option("ligand", "FILE") + ")");
   charged.n_hydrogens_added = mol2.atoms.size() - ligand.size();
   return charged;
+}
+
+}  // namespace
+
+std::string find_open_babel() {
+  const char* const named = std::getenv("ESPDIFF_OBABEL");
+  return find_program(named != nullptr && *named != '\0' ? named : "obabel");
+}
+
+ChargedLigand charge_by_open_babel(const Molecule& ligand, double ph, const std::string& name,
+                                   const Progress& progress) {
+  const std::string what = name + ": " + residue_label(ligand.residues.front());
+  const std::string program = find_open_babel();
+  if (program.empty())
+    throw DeviceError(what + ": Open Babel, which makes its hydrogens and charges, is not there; " + kOpenBabelRemedy);
+  const Mol2File mol2 = run_open_babel(program, ligand, ph, what, progress);
+  if (continues(ligand, mol2)) return with_hydrogens(ligand, mol2);
+  const Molecule heavy = without_hydrogens(ligand);
+  if (heavy.size() > 0 && heavy.size() < ligand.size()) {
+    const Mol2File anew = run_open_babel(program, heavy, ph, what, progress);
+    if (continues(heavy, anew)) {
+      ChargedLigand charged = with_hydrogens(heavy, anew);
+      charged.n_hydrogens_replaced = ligand.size() - heavy.size();
+      return charged;
+    }
+  }
+  throw refused(ligand, what + ": Open Babel returned other atoms than it got");
 }
 
 }  // namespace espdiff

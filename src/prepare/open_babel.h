@@ -18,12 +18,14 @@ extern const char* const kOpenBabelRemedy;
 struct ChargedLigand {
   Molecule molecule;  ///< one residue
   std::size_t n_hydrogens_added = 0;
+  std::size_t n_hydrogens_replaced = 0;  ///< those of the file, where Open Babel does not keep them
   double net_charge = 0;  ///< elementary charges; the sum over its atoms, whole but for the digits of the file
 };
 
 /// Perceives bonds from the distances of heavy atoms, adds hydrogens for a pH, and assigns Gasteiger's charges (O'Boyle
 /// et al., J. Cheminform. 3, 33 (2011); Gasteiger and Marsili, Tetrahedron 36, 3219 (1980)). Radii are by element
-/// (element_radius()). What is wrong in the geometry makes bonds, and so protons, wrong: compare the net charge.
+/// (element_radius()). Hydrogens that the ligand has are kept where Open Babel takes them as they are, and made anew
+/// otherwise. What is wrong in the geometry makes bonds, and so protons, wrong: compare the net charge.
 /// @param ligand one residue
 /// @param name   of its molecule, for messages
 /// @throws DeviceError (no Open Babel, or it failed), InputError (it returned other atoms than it got), Cancelled

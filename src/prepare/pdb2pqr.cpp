@@ -273,6 +273,34 @@ std::string run_pdb2pqr(const std::string& program, const std::string& name, con
   return "REMARK " + version_in(log) + "\n" + read_input(folder.file("output.pqr")).content;
 }
 
+/// Residues of a molecule by their numbers and the places of their atoms: PDB2PQR gives a chain another letter where a
+/// second one follows under its name, such as an arginine that is bound as a ligand.
+class PlacedResidues {
+ public:
+  explicit PlacedResidues(const Molecule& molecule, const std::vector<Residue>& numbered) : molecule_(molecule) {
+    for (std::size_t i = 0; i < molecule.size(); ++i)
+      atoms_[{numbered[static_cast<std::size_t>(molecule.atoms[i].residue)].number, molecule.atoms[i].name}].push_back(
+          i);
+  }
+  /// -1 where no atom lies where the original has one of its name.
+  std::ptrdiff_t original(const Molecule& output, const std::vector<std::size_t>& atoms) const {
+    constexpr double kSamePlace_A = 0.01;
+    for (const std::size_t i : atoms) {
+      const auto found = atoms_.find(
+          {output.residues[static_cast<std::size_t>(output.atoms[i].residue)].number, output.atoms[i].name});
+      if (found == atoms_.end()) continue;
+      for (const std::size_t own : found->second) {
+        if (norm(molecule_.positions[own] - output.positions[i]) < kSamePlace_A) return molecule_.atoms[own].residue;
+      }
+    }
+    return -1;
+  }
+
+ private:
+  const Molecule& molecule_;
+  std::map<std::pair<std::int32_t, std::string>, std::vector<std::size_t>> atoms_;
+};
+
 /// The atoms of an output under their original chains, numbers and names, without those of groups that were left out.
 /// @param before the molecule without these groups
 Molecule read_output(const std::string& output, const Molecule& before, const Renumbering& renumbering) {
@@ -280,8 +308,11 @@ Molecule read_output(const std::string& output, const Molecule& before, const Re
   Molecule molecule = read_structure(folder.write("output.pqr", output), {1, true, true, {}});
   molecule.name = before.name;
   std::vector<bool> is_own(molecule.residues.size(), true), keep;
+  const PlacedResidues placed(before, renumbering.residues());
+  const auto atoms = atoms_of_residues(molecule);
   for (std::size_t r = 0; r < molecule.residues.size(); ++r) {
-    const std::ptrdiff_t original = renumbering.original(molecule.residues[r]);
+    std::ptrdiff_t original = renumbering.original(molecule.residues[r]);
+    if (original < 0) original = placed.original(molecule, atoms[r]);
     if (original < 0) continue;
     is_own[r] = static_cast<std::size_t>(original) < before.residues.size();
     molecule.residues[r] = renumbering.originals()[static_cast<std::size_t>(original)];
@@ -553,7 +584,7 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   prepared.molecule.left_out = molecule.left_out;
   prepared.molecule.left_out.insert(prepared.molecule.left_out.end(), groups.additives.begin(), groups.additives.end());
   done.groups = std::move(groups.lines);
-  done.warnings = std::move(groups.warnings);
+  done.warnings.insert(done.warnings.end(), groups.warnings.begin(), groups.warnings.end());
   if (with_propka && done.propka && n_seen > 0)
     done.notes.push_back("PROPKA saw " + std::to_string(n_seen) + (n_seen == 1 ? " group" : " groups") +
                          " beside the chains that the molecule leaves out");

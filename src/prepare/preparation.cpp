@@ -142,6 +142,13 @@ Message uncharged_remedy(const std::vector<Residue>& residues, const std::string
   } else {
     remedy += "give ";
   }
+  // By name, all others of this name would go, too.
+  const bool has_standard = std::any_of(of_chains.begin(), of_chains.end(), [](const std::string& name) {
+    return !is_ion_name(name) && residue_letter(name) != '?';
+  });
+  if (has_standard)
+    return remedy + "charges for all atoms (" + option("topology", "FILE") + ", " + option("charges-from", "FILE") +
+           " or a PQR), or complete these residues";
   if (!of_chains.empty()) next.options.push_back({"leave-out", name_selection({of_chains.begin(), of_chains.end()})});
   remedy += "charges for all atoms (" + option("topology", "FILE") + ", " + option("charges-from", "FILE") +
             " or a PQR), or drop them (" + option("leave-out", name_selection(all)) + ")";

@@ -180,9 +180,9 @@ SurfaceRegression regress_on_surface(const std::vector<std::vector<double>>& mea
                                      const MeshGraph& graph, const SurfaceTestOptions& options) {
   const Regressed data(means, values, graph);
   check_values(data.values());
-  const Orders orders = make_orders(data.values().size(), options.most_arrangements, options.seed);
+  const Orders orders = make_orders(data.values().size(), options.max_permutations, options.seed);
   SurfaceRegression result;
-  result.n_arrangements = orders.all.size();
+  result.n_permutations = orders.all.size();
   result.exact = orders.exact;
   result.correlation = data.correlations(orders.all.front());
   result.t = data.t_of(result.correlation);

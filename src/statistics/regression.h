@@ -13,7 +13,7 @@ struct SurfaceRegression {
   std::vector<double> correlation, slope, t, p;  ///< [vertex] Pearson's; slope: of the column, per unit of the value
   std::vector<double> tfce;                      ///< scores of t
   std::vector<double> p_max_t, p_tfce;           ///< family-wise over the surface; NaN where not tested
-  std::size_t n_arrangements = 0;
+  std::size_t n_permutations = 0;
   bool exact = true;              ///< all orders of the values
   double smallest_p = 1;          ///< that these orders allow
   std::vector<double> predicted;  ///< [replicate] from the others; NaN without a value
@@ -26,7 +26,7 @@ constexpr std::size_t kFewestValues = 4;
 
 /// Pearson's correlation at each vertex, and the exchange of the values between replicates: the family-wise p of a
 /// vertex is the share of orders whose largest |t|, or TFCE score, on the surface is at least its own (as
-/// test_replicates()). All orders where they are not more than options.most_arrangements, otherwise the observed one
+/// test_replicates()). All orders where they are not more than options.max_permutations, otherwise the observed one
 /// and random ones.
 ///
 /// Prediction of a value from the others: the first component of partial least squares (Wold et al. 1984, SIAM J. Sci.

@@ -37,12 +37,12 @@ struct SurfaceTest {
   PlaceTests vertices;
   std::vector<double> tfce;             ///< scores
   std::vector<double> p_max_t, p_tfce;  ///< family-wise over the surface; NaN where not tested
-  std::size_t n_arrangements = 0;
-  bool exact = true;                         ///< all arrangements
-  double smallest_p = 1;                     ///< that these arrangements allow
+  std::size_t n_permutations = 0;
+  bool exact = true;                         ///< all permutations
+  double smallest_p = 1;                     ///< that these permutations allow
   double mean_abs_difference = 0;            ///< area-weighted
-  double mean_abs_difference_p = 1;          ///< share of arrangements with at least this
-  double mean_abs_difference_exchanged = 0;  ///< its median over arrangements with exchanged labels
+  double mean_abs_difference_p = 1;          ///< share of permutations with at least this
+  double mean_abs_difference_exchanged = 0;  ///< its median over permutations with exchanged labels
   /// Within runs only: why there is no p and no interval; empty where there is one. The other members, except
   /// differences, are NaN then, or 0.
   std::string no_p;
@@ -53,12 +53,12 @@ struct SurfaceTest {
 
 struct SurfaceTestOptions {
   double confidence = 0.95;
-  std::uint64_t most_arrangements = 10000;
+  std::uint64_t max_permutations = 10000;
   std::uint64_t seed = 20221;
 };
 
 /// Exchanges the labels of replicates. Statistic: Welch's t of the replicates' means. Its p-values are the shares of
-/// arrangements whose largest |t| (max-t) or TFCE score on the surface is at least the vertex' own: both control the
+/// permutations whose largest |t| (max-t) or TFCE score on the surface is at least the vertex' own: both control the
 /// family-wise error (Nichols & Holmes 2002, Hum. Brain Mapp. 15:1; Winkler et al. 2014, NeuroImage 92:381). `p` and
 /// the interval are Welch's, of each vertex alone.
 /// @param means   [replicate][vertex], those of the first group first; NaN: not tested
@@ -67,7 +67,7 @@ SurfaceTest test_replicates(const std::vector<std::vector<double>>& means, std::
                             const SurfaceTestOptions& options);
 
 /// For a group of one replicate: cuts the runs into blocks, and does with their means what test_replicates() does with
-/// those of replicates: Welch's t has its error estimated anew in each arrangement. That is exact where blocks can be
+/// those of replicates: Welch's t has its error estimated anew in each permutation. That is exact where blocks can be
 /// exchanged. So they are at least twice as long as the statistical inefficiency g, and g frames between them are left
 /// out: means of neighbouring blocks of an autoregressive series then have a correlation of 0.02, and 0.17 without the
 /// gap. Differences are of all frames; errors, t and p of the blocks. With fewer than four blocks of a run there is no

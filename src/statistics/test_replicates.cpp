@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "base/progress.h"
-#include "statistics/arrangements.h"
 #include "statistics/mesh_graph.h"
 #include "statistics/null_maxima.h"
+#include "statistics/permutations.h"
 #include "statistics/surface_test.h"
 #include "statistics/tfce.h"
 #include "statistics/welch.h"
@@ -16,7 +16,7 @@ namespace {
 
 using Means = std::vector<std::vector<double>>;
 
-/// Both groups' moments at a vertex under an arrangement.
+/// Both groups' moments at a vertex under an permutation.
 struct Split {
   GroupMoments first, second;
 };
@@ -102,8 +102,8 @@ void move_to(PlaceTests& tests, std::size_t place, double difference) {
 SurfaceTest test_replicates(const Means& means, std::size_t n_first, const MeshGraph& graph,
                             const SurfaceTestOptions& options) {
   SurfaceTest test;
-  const Arrangements all = make_arrangements(n_first, means.size() - n_first, options.most_arrangements, options.seed);
-  test.n_arrangements = all.orders.size();
+  const Permutations all = make_permutations(n_first, means.size() - n_first, options.max_permutations, options.seed);
+  test.n_permutations = all.orders.size();
   test.exact = all.exact;
   test.smallest_p = all.smallest_p();
   std::vector<double> scratch;

@@ -15,7 +15,7 @@ namespace espdiff {
 namespace {
 
 /// Blocks of the shortest run at least, for 4 against 4 reach 0.029, and at most, for 7 against 7 have 3,432
-/// arrangements, which are all gone through. Longer runs get longer blocks instead of more: the longer, the less
+/// permutations, which are all gone through. Longer runs get longer blocks instead of more: the longer, the less
 /// does it matter whether the inefficiency was estimated right.
 constexpr std::size_t kLeastBlocks = 4, kMostBlocks = 7;
 /// Of a run that is longer than the shortest one, whose blocks are as long as there.
@@ -108,7 +108,7 @@ SurfaceTest without_p(std::size_t n, const RunBlocks& blocks) {
   test.vertices = {none, none, none, none, none, none, none};
   test.p_max_t = test.p_tfce = none;
   test.tfce.assign(n, 0);
-  test.n_arrangements = 0;
+  test.n_permutations = 0;
   test.mean_abs_difference_p = test.mean_abs_difference_exchanged = kNaN;
   const std::size_t fewest = *std::min_element(blocks.n.begin(), blocks.n.end());
   test.no_p = formatted(

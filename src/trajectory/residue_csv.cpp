@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "compare/paired_residues.h"
 #include "compare/result.h"
 #include "io/read_csv.h"
 #include "io/write_csv.h"
@@ -23,7 +24,8 @@ constexpr const char* kFingerprint = "trajectory: ";
 /// The quantity of the head's first line; empty for another file.
 std::string quantity_of(const std::vector<std::string>& comments) {
   const std::string word = ResidueCsv::kHeadWord;
-  if (comments.size() != 2 || comments[0].rfind(word, 0) != 0) return {};
+  const bool has_partners = comments.size() == 3 && comments[2].rfind(ResidueCsv::kPartners, 0) == 0;
+  if ((comments.size() != 2 && !has_partners) || comments[0].rfind(word, 0) != 0) return {};
   const std::string rest = comments[0].substr(word.size());
   return rest.substr(0, rest.find(' '));
 }
@@ -32,7 +34,23 @@ std::string quantity_of(const std::vector<std::string>& comments) {
 bool is_part_of_head(const std::string& text) {
   const std::string first = std::string("# ") + ResidueCsv::kHeadWord;
   if (text.size() < first.size()) return first.rfind(text, 0) == 0;
-  return text.rfind(first, 0) == 0 && std::count(text.begin(), text.end(), '\n') < 3;
+  const bool has_partners = text.find(std::string("\n# ") + ResidueCsv::kPartners) != std::string::npos;
+  return text.rfind(first, 0) == 0 && std::count(text.begin(), text.end(), '\n') < (has_partners ? 4 : 3);
+}
+
+/// The names of the residues' partners under their columns; empty if the target's residues have the same names.
+std::vector<std::string> partners_of(const std::vector<std::string>& columns, const Molecule& source,
+                                     const Molecule& target, const CompareResult& result) {
+  if (result.pairing.pairs.empty()) return {};
+  const std::vector<std::int32_t> target_of = paired_residues(source, target, result.pairing);
+  std::vector<std::string> partners{""};  // of the frame
+  bool differ = false;
+  for (const ResidueRow& row : result.residues) {
+    const std::int32_t partner = target_of[row.residue];
+    partners.push_back(partner < 0 ? "" : residue_column(target.residues[static_cast<std::size_t>(partner)]));
+    differ = differ || partners.back() != columns[partners.size() - 1];
+  }
+  return differ ? partners : std::vector<std::string>();
 }
 
 }  // namespace
@@ -79,9 +97,10 @@ void ResidueCsv::resume(const std::vector<std::string>& frames, const std::strin
   file_.truncate(kept.size());
 }
 
-ResidueLine ResidueCsv::row(int frame, const Molecule& source, const CompareResult& result) const {
+ResidueLine ResidueCsv::row(int frame, const Molecule& source, const Molecule& target,
+                            const CompareResult& result) const {
   ResidueLine row{
-      quantity_.empty() ? usual_residue_quantity(result) : quantity_, "", {kFrame}, {std::to_string(frame)}};
+      quantity_.empty() ? usual_residue_quantity(result) : quantity_, "", {kFrame}, {std::to_string(frame)}, {}};
   row.unit = residue_unit(result, row.quantity);
   for (const ResidueRow& residue : result.residues)
     row.columns.push_back(residue_column(source.residues[residue.residue]));
@@ -91,6 +110,7 @@ ResidueLine ResidueCsv::row(int frame, const Molecule& source, const CompareResu
     throw InputError(path() +
                      ": this frame has other residues than the first: " + std::to_string(row.columns.size() - 1) +
                      " instead of " + std::to_string(columns_.size() - 1) + ", or other names");
+  if (columns_.empty()) row.partners = partners_of(row.columns, source, target, result);
   return row;
 }
 
@@ -98,7 +118,9 @@ void ResidueCsv::add(const ResidueLine& row, const std::string& fingerprint) {
   std::string text;
   if (columns_.empty()) {
     text = std::string("# ") + kHeadWord + row.quantity + (row.unit.empty() ? "" : " [" + row.unit + "]") + "\n# " +
-           kFingerprint + fingerprint + "\n" + csv_row(row.columns);
+           kFingerprint + fingerprint + "\n" +
+           (row.partners.empty() ? std::string() : std::string("# ") + kPartners + csv_row(row.partners)) +
+           csv_row(row.columns);
     file_.truncate(0);
     columns_ = row.columns;
     quantity_ = row.quantity;

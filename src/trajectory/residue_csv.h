@@ -15,6 +15,7 @@ struct CompareResult;
 struct ResidueLine {
   std::string quantity, unit;
   std::vector<std::string> columns, cells;
+  std::vector<std::string> partners;  ///< [column] of the target; empty where all have the names of the columns
 };
 
 /// The file beside a trajectory's CSV file (SeriesCsv), with the frames that have numbers there.
@@ -22,6 +23,8 @@ class ResidueCsv {
  public:
   /// Its first line is this, the quantity, and its unit in brackets.
   static constexpr const char* kHeadWord = "residues: ";
+  /// The third line, where the target's residues have other names: theirs, a cell under each column, empty for none.
+  static constexpr const char* kPartners = "partners: ";
 
   /// @param quantity of residue_quantities(); empty: usual_residue_quantity()
   /// @throws as AppendedFile; InputError (there is no such quantity)
@@ -36,8 +39,9 @@ class ResidueCsv {
   /// @throws FormatError, InputError (the file is of another run or quantity; rows are missing)
   void resume(const std::vector<std::string>& frames, const std::string& fingerprint);
   /// The row of a frame. @throws as residue_values(); InputError (other residues than before)
-  ResidueLine row(int frame, const Molecule& source, const CompareResult& result) const;
-  /// @param row from row()  @param fingerprint of the head of the trajectory's file
+  ResidueLine row(int frame, const Molecule& source, const Molecule& target, const CompareResult& result) const;
+  /// @param row from row(); the partners in the head are those of the first  @param fingerprint of the trajectory's
+  /// head
   /// @throws IoError
   void add(const ResidueLine& row, const std::string& fingerprint);
 

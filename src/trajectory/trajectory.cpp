@@ -224,7 +224,7 @@ SeriesRow TrajectoryRun::compare(Engine& engine, const StepInput& input, const P
   restored_.reset();
   const CompareResult result = series_->step(input.target, start_of_step(), progress);
   residue_line_.reset();
-  if (residues_) residue_line_ = residues_->row(next().frame, *input.source.molecule, result);
+  if (residues_) residue_line_ = residues_->row(next().frame, *input.source.molecule, *input.target.molecule, result);
   return {next().frame, next().reference, *input.source.molecule, *input.target.molecule, result, plan_.options};
 }
 

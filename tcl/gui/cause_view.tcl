@@ -123,34 +123,42 @@ namespace eval ::espdiff::gui {
     }
 
     # Selects the cause's residue in the table above, which highlights it in VMD and rotates the view to it. One that
-    # the source lacks, or that the table leaves out, is highlighted by its name.
+    # the table leaves out, or that the source lacks, is highlighted all the same.
     proc go_to_cause {} {
         variable widget
         variable shown
         variable form
         variable cause_rows
-        variable residue_rows
         set item [$widget(causes,table) selection]
         if {$item eq ""} return
         set cause [dict get $cause_rows $item]
+        set index [row_of_cause $cause]
         set table $widget(residues,table)
-        foreach row $residue_rows {
-            if {[dict get $row chain] ne [dict get $cause chain] || [dict get $row number] ne [dict get $cause number] ||
-                [dict get $row insertion] ne [dict get $cause insertion_code]} continue
-            set index [dict get $row index]
-            if {[$table exists $index]} {
-                $table selection set $index
-                $table see $index
-                return
-            }
+        if {$index ne "" && [$table exists $index]} {
+            $table selection set $index
+            $table see $index
+            return
         }
         if {![in_vmd]} return
-        set name "[dict get $cause chain]:[dict get $cause name] [dict get $cause number][dict get $cause insertion_code]"
-        foreach side {source target} {
-            set mol [::espdiff::molecule_of $shown $side]
-            if {$mol ne ""} { ::espdiff::highlight_named $shown $mol [list $name] $form(residues,face) }
+        if {$index ne ""} {
+            espdiff highlight $shown [list $index] -face $form(residues,face)
+        } else {
+            set mol [::espdiff::molecule_of $shown target]
+            set name "[dict get $cause chain]:[dict get $cause name] [dict get $cause number][dict get $cause insertion_code]"
+            if {$mol ne ""} { ::espdiff::highlight_named $shown [list $mol $name] $form(residues,face) }
         }
         variable highlighted $shown
         tell_in residues "[dict get $cause residue] highlighted; the table above does not list it."
+    }
+
+    # The `index` of the cause's residue in the source; empty where the target alone has it.
+    proc row_of_cause {cause} {
+        variable residue_rows
+        if {[dict get $cause place source] eq ""} { return "" }
+        foreach row $residue_rows {
+            if {[dict get $row chain] eq [dict get $cause chain] && [dict get $row number] eq [dict get $cause number] &&
+                [dict get $row insertion] eq [dict get $cause insertion_code]} { return [dict get $row index] }
+        }
+        return ""
     }
 }

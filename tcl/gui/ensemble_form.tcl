@@ -149,7 +149,9 @@ namespace eval ::espdiff::gui {
         set mol [number_of $form(ensemble,mol)]
         if {$mol eq ""} { error "no molecule is chosen; load one into VMD" }
         set frames [string trim $form(ensemble,frames)]
-        set n [llength [::espdiff::vmd_frames $mol $frames Frames]]
+        set numbers [::espdiff::vmd_frames $mol $frames Frames]
+        check_selection $mol [lindex $numbers 0] $form(ensemble,sel)
+        set n [llength $numbers]
         set endpoint [list mol $mol frames $frames]
         if {$form(ensemble,sel) ne "not water"} { lappend endpoint sel $form(ensemble,sel) }
         add_replicate $endpoint [file rootname [molinfo $mol get name]] "molecule $form(ensemble,mol), $n frames"

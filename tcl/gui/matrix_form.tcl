@@ -145,7 +145,9 @@ namespace eval ::espdiff::gui {
         set mol [number_of $form(matrix,mol)]
         if {$mol eq ""} { error "no molecule is chosen; load one into VMD" }
         set name [file rootname [molinfo $mol get name]]
-        foreach frame [::espdiff::vmd_frames $mol [string trim $form(matrix,frames)] Frames] {
+        set frames [::espdiff::vmd_frames $mol [string trim $form(matrix,frames)] Frames]
+        check_selection $mol [lindex $frames 0] $form(matrix,sel)
+        foreach frame $frames {
             set endpoint [list mol $mol frame $frame]
             if {$form(matrix,sel) ne "not water"} { lappend endpoint sel $form(matrix,sel) }
             set label [expr {[molinfo $mol get numframes] == 1 ? $name : "$name:$frame"}]

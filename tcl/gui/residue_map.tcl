@@ -1,7 +1,7 @@
 # residue_map.tcl: one value of each residue along the trajectory, as a map that leads to frames and residues.
 
 namespace eval ::espdiff::gui {
-    variable residue_table {}    ;# title unit frames residues rows low high, as core::residue_map has them
+    variable residue_table {}    ;# title unit frames residues partners rows low high, as core::residue_map has them
     variable residue_stale 0     ;# the file has rows that the table lacks
     variable residue_pause_until 0
     variable residue_layout {}   ;# left, top, width, height in pixels; empty where the map is not drawn
@@ -166,14 +166,27 @@ namespace eval ::espdiff::gui {
         return ""
     }
 
-    # "Frame 20, A:LYS 12: 1.23 kT/e"
+    # "Frame 20, A:LYS 12: 1.23 kT/e"; "A:LYS 12->B:LYS 13" where its partner has another name.
     proc tell_residue_cell {row column} {
         variable widget
         variable residue_table
         dict with residue_table {}
         set value [lindex $rows $row $column]
-        $widget(trajectory,point) configure -text "Frame [lindex $frames $column], [lindex $residues $row]: [expr {
+        $widget(trajectory,point) configure -text "Frame [lindex $frames $column], [residue_of_map $row]: [expr {
             $value eq "" ? "no surface that is compared" : [with_unit $value $unit]}]"
+    }
+
+    proc residue_of_map {row} {
+        lassign [residue_names $row] name partner
+        return $name[expr {$partner in [list "" $name] ? "" : "\u2192$partner"}]
+    }
+
+    # In the source, and in the target; empty for no partner there.
+    proc residue_names {row} {
+        variable residue_table
+        dict with residue_table {}
+        set name [lindex $residues $row]
+        list $name [expr {$partners eq "" ? $name : [lindex $partners $row]}]
     }
 
     # Takes VMD to the frame, and highlights the residue there.
@@ -265,13 +278,16 @@ namespace eval ::espdiff::gui {
         expr {[in_vmd] && $mol in [molinfo list] ? $mol : ""}
     }
 
+    # In the source, and in the molecule of the frames by its partner's name.
     proc highlight_trajectory_residue {} {
         variable form
-        variable residue_table
         variable chosen_residue
-        set mol [named_molecule]
-        if {$mol eq "" || $chosen_residue eq ""} return
-        ::espdiff::highlight_named trajectory $mol [list [lindex [dict get $residue_table residues] $chosen_residue]] \
-            $form(residues,face)
+        if {![in_vmd] || $chosen_residue eq ""} return
+        lassign [residue_names $chosen_residue] name partner
+        set residues {}
+        foreach mol [list [named_molecule] [trajectory_molecule]] as [list $name $partner] {
+            if {$mol ne "" && ![dict exists $residues $mol]} { lappend residues $mol $as }
+        }
+        ::espdiff::highlight_named trajectory $residues $form(residues,face)
     }
 }

@@ -92,14 +92,15 @@ namespace eval ::espdiff::gui {
         choose_point [expr {max(0, min($n - 1, $now + $step))}]
     }
 
-    # Takes VMD to the point's frame.
+    # Takes VMD to the point's frame, of both trajectories where each frame has its source in another one.
     proc choose_point {row} {
         variable chosen_point
         variable trajectory_rows
         set chosen_point $row
-        set mol [trajectory_molecule]
         set frame [dict get [lindex $trajectory_rows $row] frame]
-        if {$mol ne "" && $frame < [molinfo $mol get numframes]} { molinfo $mol set frame $frame }
+        foreach mol [lsort -unique [list [trajectory_molecule] [named_molecule]]] {
+            if {$mol ne "" && $frame < [molinfo $mol get numframes]} { molinfo $mol set frame $frame }
+        }
         mark_now
         if {[shows_residue_map]} { mark_residue; tell_chosen_point } else { mark_point; tell_row $row }
         show_trajectory_running

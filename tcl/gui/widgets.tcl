@@ -262,6 +262,9 @@ namespace eval ::espdiff::gui {
         }
     }
 
+    # Refuses a selection that VMD does not understand, or that holds no atoms, before it is in a tab's list.
+    proc check_selection {mol frame text} { ::espdiff::vmd_structure [list mol $mol frame $frame sel $text] Atoms }
+
     # Offers VMD's molecules to a tab that adds some to its list, and says whether a row can be removed.
     proc update_list {tab} {
         variable form

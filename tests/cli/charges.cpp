@@ -185,6 +185,6 @@ TEST_CASE("surface takes selections; what potential and surface cannot do is one
   refused("surface " + *entry + " --ionic-strength 0.1" + output, 2, "is of computed potentials, and none is computed");
   refused("surface " + *entry + " --potential pb --map x.dx" + output, 2, "leave out one of them");
   refused("potential " + *entry + " --select //Q -o " + folder.file("p.dx"), 2, "--select '//Q' selects no atom");
-  refused("potential " + *entry + " --leave-out '(HEM)' -o " + folder.file("p.dx"), 2,
+  refused("potential " + *entry + " --leave-out '(HEM)' --ligands files -o " + folder.file("p.dx"), 2,
           has_pdb2pqr() ? "get no charges" : "");
 }

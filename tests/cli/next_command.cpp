@@ -95,7 +95,8 @@ TEST_CASE("next: ligands of both files are named at once, and made by the comman
       "HETATM 9991  C2  LIG A 901      61.520  60.000  60.000  1.00  0.00           C\n";
   with_ligand.insert(with_ligand.find("\nHETATM") + 1, group);
   const std::string run = "compare " + *source + " " + folder.write("t.pdb", with_ligand) +
-                          " --select //A --grid-spacing 2 --pb-spacing 1.5 --device cpu -q --exit-zero -o " +
+                          " --select //A --grid-spacing 2 --pb-spacing 1.5 --device cpu -q --exit-zero --ligands files "
+                          "-o " +
                           folder.file("out");
   const Outcome refused = run_espdiff(run);
   CHECK(refused.status == 2);
@@ -109,6 +110,7 @@ TEST_CASE("next: ligands of both files are named at once, and made by the comman
   CHECK(contains(next_words(refused.err), " --ligands auto"));
   const Outcome next = run_espdiff(next_words(refused.err));
   CHECK_MESSAGE(next.status == 0, next.err);
+  CHECK(contains(next.err, "of the source, the net charge of a ligand is a guess by Open Babel's rules"));
   CHECK(contains(read_file(folder.file("out.json")), "AP5 215 of chain A: -"));
 }
 
@@ -120,6 +122,23 @@ TEST_CASE("next: a trajectory that only VMD's readers read is handed to Python, 
   CHECK(refused.status != 0);
   if (contains(refused.err, "none were found"))
     CHECK(contains(refused.err, "\nnext: python3 -m espdiff trajectory " + folder.file("a.pqr")));
+}
+
+TEST_CASE("trajectory: PSF and DCD without VMD, and the plot with the table where its output is named OUT.png") {
+  const auto psf = real_input("traj_adk/adk.psf"), dcd = real_input("traj_adk/adk_dims.dcd");
+  if (!psf || !dcd) return;
+  const ScratchFolder folder;
+  const Outcome outcome = run_espdiff("trajectory " + *psf + " " + *dcd + " --frames 0:40:60 --potential none" +
+                                          " --grid-spacing 2 --device cpu -o " + folder.file("t.png"),
+                                      "PATH=/usr/bin:/bin VMDDIR=");
+  if (contains(outcome.err, "gnuplot, which is not installed")) return;
+  CHECK_MESSAGE(outcome.status == 0, outcome.err);
+  CHECK(contains(outcome.out, "written        " + folder.file("t.csv") + ", " + folder.file("t.png")));
+  CHECK(n_lines(read_file(folder.file("t.csv"))) > 2);
+  CHECK(read_file(folder.file("t.png")).substr(1, 3) == "PNG");
+  const Outcome again = run_espdiff("trajectory " + *psf + " " + *dcd + " -o " + folder.file("t.png"), "VMDDIR=");
+  CHECK(again.status != 0);
+  CHECK(contains(again.err, "overwrite"));
 }
 
 TEST_CASE("next: what PDB2PQR cannot prepare is compared by its shapes") {
@@ -158,4 +177,21 @@ TEST_CASE("compare -o OUT.png draws the picture with the answer, or says before 
   }
   CHECK(contains(run_espdiff(run).err, "pair exists; --overwrite replaces it"));
   CHECK(run_espdiff(run + " --overwrite").status == 0);
+}
+
+TEST_CASE("next: potential and prepare keep files that are there, and replace them by the command of the refusal") {
+  const ScratchFolder folder;
+  const std::string pqr = folder.write("a.pqr", row_of_atoms(12));
+  for (const std::string& run : {"potential " + pqr + " --device cpu -q -o " + folder.file("a.dx"),
+                                 "prepare " + pqr + " -q -o " + folder.file("b.pqr")}) {
+    const Outcome first = run_espdiff(run);
+    REQUIRE_MESSAGE(first.status == 0, first.err);
+    const Outcome refused = run_espdiff(run);
+    CHECK(refused.status == 2);
+    CHECK_MESSAGE(contains(refused.err, " exists; --overwrite replaces it, another --output keeps it\nnext: espdiff "),
+                  refused.err);
+    const Outcome next = run_espdiff(next_words(refused.err));
+    CHECK_MESSAGE(next.status == 0, next.err);
+  }
+  CHECK(run_espdiff("prepare " + pqr + " -q -o /dev/null --json /dev/null").err.find("exists") == std::string::npos);
 }

@@ -88,11 +88,13 @@ TEST_CASE("potential: cells from CRYST1, --cell and --xscfile agree; PMEPot's mo
   const ScratchFolder folder;
   const std::string with_cell = folder.write("a.pqr", helix(1, true)), bare = folder.write("b.pqr", helix(1));
   const auto map = [&](const std::string& arguments) {
-    const Outcome outcome = run_espdiff("potential " + arguments + " --device cpu -q -o " + folder.file("m.dx"));
+    const Outcome outcome =
+        run_espdiff("potential " + arguments + " --device cpu --overwrite -q -o " + folder.file("m.dx"));
     CHECK_MESSAGE(outcome.status == 0, outcome.err);
     return read_grid(folder.file("m.dx"));
   };
-  if (lacks_fourier(run_espdiff("potential " + bare + " --device cpu -q -o " + folder.file("m.dx")))) return;
+  if (lacks_fourier(run_espdiff("potential " + bare + " --device cpu --overwrite -q -o " + folder.file("m.dx"))))
+    return;
   const auto own = map(with_cell);
   CHECK(own.lattice.size == std::array<int, 3>{40, 42, 42});
   // The centre of the atoms, to the digits of DX.
@@ -145,7 +147,8 @@ TEST_CASE("potential: wrong input gives one line and leaves nothing") {
                         {molecule + " --method coulomb --dielectric 0", "--dielectric: '0' is not a positive number"},
                         {molecule + " --variance " + folder.file("v.dx") + " --frames 0", "need at least 2 frames"},
                         {folder.file("absent.pqr"), "absent.pqr"}}) {
-    const Outcome outcome = run_espdiff("potential " + c.arguments + " --device cpu -o " + folder.file("m.dx"));
+    const Outcome outcome =
+        run_espdiff("potential " + c.arguments + " --device cpu --overwrite -o " + folder.file("m.dx"));
     CAPTURE(c.arguments);
     if (lacks_fourier(outcome)) continue;
     CHECK_MESSAGE(outcome.status != 0, outcome.err);

@@ -28,7 +28,7 @@ TEST_CASE("prepare: untidy files give an answer or one line that names file, pla
   if (!data || !has_pdb2pqr()) return;
   const ScratchFolder folder;
   const auto prepared = [&](const std::string& file) {
-    return run_espdiff("prepare " + *data + file + " --no-cache -o " + folder.file("out.pqr"));
+    return run_espdiff("prepare " + *data + file + " --no-cache --overwrite -o " + folder.file("out.pqr"));
   };
   const std::string cannot = " has no charges, and no amino acids or nucleotides that PDB2PQR could charge, only ",
                     remedy = "; give a PQR, or charges (--topology FILE or --charges-from FILE)\n";
@@ -71,7 +71,7 @@ TEST_CASE("prepare: an atom without charge, an unknown chain, a word that drops 
     CHECK(n_lines(outcome.err) == (contains(outcome.err, "\nnext: ") ? 2 : 1));
     return outcome.err;
   };
-  const std::string uncharged = refused("--select //A");
+  const std::string uncharged = refused("--select //A --ligands files");
   CHECK(contains(uncharged,
                  "1ake.pdb:3796: 57 atoms get no charges from PDB2PQR's force field parse: AP5 215 of chain A"));
   CHECK(contains(uncharged, "or drop them (--leave-out '(AP5)')"));

@@ -66,6 +66,22 @@ TEST_CASE("coarse lattices are verified: tolerances follow from the spacing") {
   }
 }
 
+TEST_CASE("a result of three atoms is verified, whose surface has no hollows") {
+  const ScratchFolder folder;
+  const std::string atoms =
+      "ATOM 1 CA ALA A 1 0 0 0 0.5 1.2\nATOM 2 CA ALA A 2 1 0.7 0.4 0.5 1.2\nATOM 3 CA ALA A 3 2 1.4 0 0.5 1.2\n";
+  write_file(folder.file("a.pqr"), atoms);
+  for (const char* const spacing : {"1", "1.5", "2"}) {
+    const std::string prefix = folder.file(std::string("s") + spacing);
+    REQUIRE(run_espdiff("compare " + folder.file("a.pqr") + " " + folder.file("a.pqr") +
+                        " --potential coulomb --device cpu -q --exit-zero --grid-spacing " + spacing + " -o " + prefix)
+                .status == 0);
+    const Outcome verified = run_espdiff("verify " + prefix);
+    CAPTURE(verified.out);
+    CHECK(verified.status == 0);
+  }
+}
+
 TEST_CASE("a wrong number in OUT.vtp or OUT.residues.csv is found") {
   const SmallResult result;
   if (result.prefix.empty()) return;

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "statistics/arrangements.h"
+#include "statistics/permutations.h"
 
 namespace espdiff_test {
 
@@ -15,8 +15,8 @@ inline std::vector<std::pair<std::vector<std::size_t>, std::vector<std::size_t>>
     const std::vector<std::size_t>& first, const std::vector<std::size_t>& second) {
   std::vector<std::pair<std::vector<std::size_t>, std::vector<std::size_t>>> splits;
   const std::size_t half_first = first.size() / 2, half_second = second.size() / 2;
-  for (const auto& a : espdiff::make_arrangements(half_first, first.size() - half_first).orders) {
-    for (const auto& b : espdiff::make_arrangements(half_second, second.size() - half_second).orders) {
+  for (const auto& a : espdiff::make_permutations(half_first, first.size() - half_first).orders) {
+    for (const auto& b : espdiff::make_permutations(half_second, second.size() - half_second).orders) {
       splits.emplace_back();
       auto& [one, two] = splits.back();
       for (std::size_t i = 0; i < a.size(); ++i) (i < half_first ? one : two).push_back(first[a[i]]);

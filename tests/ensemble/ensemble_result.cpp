@@ -155,7 +155,7 @@ TEST_CASE("the conclusion comes first, and p only where something can be conclud
   };
   const auto [few, few_table] = answer("few.h5", planted_plan(3, 3, 100), -1);
   CHECK(few.conclusion ==
-        "NO CONCLUSION: 3 against 3 replicates have 20 arrangements, so that no family-wise p can be below 0.1");
+        "NO CONCLUSION: 3 against 3 replicates have 20 permutations, so that no family-wise p can be below 0.1");
   CHECK(few_table.find(" p = ") == std::string::npos);
   CHECK(few_table.find("significant: not tested, since 3 against 3 replicates") != std::string::npos);
   const auto [short_runs, short_table] = answer("short.h5", planted_plan(1, 1, 12), -1);
@@ -277,7 +277,7 @@ TEST_CASE("results are the same bytes at any number of threads and again") {
   for (const char* ending : {".json", ".vtp", ".residues.csv", ".patches.csv", ".patch_series.csv"})
     CHECK(read_file(folder.file(std::string("x") + ending)) == read_file(folder.file(std::string("y") + ending)));
   const auto json = nlohmann::json::parse(read_file(folder.file("x.json")));
-  CHECK(json.at("test").at("n_arrangements") == 70);
+  CHECK(json.at("test").at("n_permutations") == 70);
   CHECK(json.at("patches").at(0).at("residues").at(0).at("residue") == "ALA 1");
   std::ostringstream table;
   print_ensemble(table, file, analyse_ensemble(file, {}));

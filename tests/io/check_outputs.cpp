@@ -47,3 +47,13 @@ TEST_CASE("check_outputs names both files") {
         }) == "two outputs would have one name: '" + out + "' and '" + other +
                   "', which are one file; choose another for one of them");
 }
+
+TEST_CASE("check_outputs keeps a file that is there unless it may be replaced; a device is no file") {
+  const ScratchFolder folder;
+  const std::string there = folder.write("there", "x");
+  CHECK(message_of([&] {
+          check_outputs({}, {folder.file("new"), there}, false);
+        }) == there + " exists; overwrite replaces it, another output keeps it");
+  CHECK_NOTHROW(check_outputs({}, {there}, true));
+  CHECK_NOTHROW(check_outputs({}, {folder.file("new"), "", "/dev/null"}, false));
+}

@@ -38,6 +38,17 @@ TEST_CASE("read_cube: Bohr, z fastest in the file") {
   CHECK(grid.unit == PotentialUnit::kUnknown);
 }
 
+TEST_CASE("read_cube: a comment that names another quantity than a potential is kept") {
+  const auto title = [](const std::string& comment) {
+    std::string text = cube("1 1 2 3", "2 2 2", kAtomLine + kEight);
+    return read_cube("f.cube", text.replace(text.find(" comment"), 8, comment)).contradicting_title;
+  };
+  CHECK(title(" Electron density from Total SCF Density") == "Electron density from Total SCF Density");
+  CHECK(title(" MO=HOMO, an orbital") == "MO=HOMO, an orbital");
+  CHECK(title(" Electrostatic pot from Total SCF Density").empty());
+  CHECK(title(" comment").empty());
+}
+
 TEST_CASE("read_cube: negative counts mean Angstrom") {
   const Grid grid = read_cube("f.cube", cube("0 1 2 3", "-2 -2 -2", kEight));
   CHECK(grid.lattice.size == std::array<int, 3>{2, 2, 2});

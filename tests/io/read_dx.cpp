@@ -100,6 +100,20 @@ TEST_CASE("read_dx: the unit from APBS' comment, PMEPot's comment or field name,
   CHECK(unit("# potential (\n") == PotentialUnit::kUnknown);
 }
 
+TEST_CASE("read_dx: a title of another quantity is kept, in the words of APBS, VMD and others") {
+  const auto title = [](const std::string& before, const std::string& after = {}) {
+    return read_dx("f", before + kHeader + values() + after).contradicting_title;
+  };
+  CHECK(title("# CHARGE DENSITY (e/A^3)\n") == "CHARGE DENSITY (e/A^3)");
+  CHECK(title("# CHARGE DISTRIBUTION (e)\n") == "CHARGE DISTRIBUTION (e)");
+  CHECK(title("# LAPLACIAN OF POTENTIAL (kT/e/A^2)\n") == "LAPLACIAN OF POTENTIAL (kT/e/A^2)");
+  CHECK(title("# X-SHIFTED DIELECTRIC MAP\n") == "X-SHIFTED DIELECTRIC MAP");
+  CHECK(title("", "\nobject \"occupancy (protein)\" class field\n") == "object \"occupancy (protein)\" class field");
+  CHECK(title("# Electrostatic pot from Total SCF Density\n").empty());
+  CHECK(title("# POTENTIAL (kT/e)\n# at a distance of 5 A\n").empty());
+  CHECK(title("# Comment\n").empty());
+}
+
 TEST_CASE("read_dx: fewer or more values than promised, and what is no number") {
   CHECK(dx_error(kHeader + values(20) + kTrailer) ==
         "f.dx:14: only 20 values were found, but 'items' promises 24; is the file cut short?");

@@ -20,6 +20,22 @@ TEST_CASE("read_grid: the name does not matter") {
   CHECK(read_grid(scratch.write("map.cube", kDx)).values == std::vector<float>{1, 5, 3, 7, 2, 6, 4, 8});
 }
 
+TEST_CASE("read_grid: a unit that is not the file's is taken, and the file's is kept for a warning") {
+  const ScratchFolder scratch;
+  const std::string silent = scratch.write("a.dx", kDx),
+                    telling = scratch.write("b.dx", "# POTENTIAL (kT/e)\n" + std::string(kDx));
+  const auto read = [](const std::string& path, const std::string& unit) {
+    GridOptions options;
+    options.unit = unit;
+    return read_grid(path, options);
+  };
+  CHECK(read(silent, "mV").unit == PotentialUnit::kMillivolt);
+  CHECK(read(silent, "mV").contradicting_title.empty());
+  CHECK(read(telling, "mV").unit == PotentialUnit::kMillivolt);
+  CHECK(read(telling, "mV").contradicting_title == "potential (kT/e)");
+  CHECK(read(telling, "kT/e").contradicting_title.empty());
+}
+
 TEST_CASE("read_grid: other formats are refused by name, with a remedy") {
   const std::pair<const char*, const char*> files[] = {
       {"map_ngl/3pqr-mode0.ccp4",
@@ -44,6 +60,7 @@ TEST_CASE("read_grid: missing, directory, empty; an array name where there are n
   CHECK_THROWS_AS(read_grid(scratch.file("")), IoError);
   CHECK_THROWS_AS(read_grid(scratch.write("empty.dx", "")), InputError);
   const std::string path = scratch.write("a.dx", kDx);
-  CHECK(message_of([&] { read_grid(path, {"phi"}); }) ==
-        path + ": array 'phi' was asked for, but only VTI files have named arrays");
+  CHECK(message_of([&] {
+          read_grid(path, {"phi", ""});
+        }) == path + ": array 'phi' was asked for, but only VTI files have named arrays");
 }

@@ -67,6 +67,26 @@ TEST_CASE("read_mmcif: coordinates that are no numbers are refused with line and
         "a.cif:20: _atom_site.Cartn_z of atom 1 is '?'; a finite number was expected");
 }
 
+TEST_CASE("read_mmcif: errors of gemmi's are told in our words, with the line") {
+  const std::string row = "ATOM 1 N N . ALA A ? 1.0 2.0 3.0 1.0 5 7 X 1\n", head = "a.cif:2: not valid CIF: ";
+  CHECK(mmcif_error("data_X\n_a.b 'x\n") == head + "a value in single quotes is not closed on its line");
+  CHECK(mmcif_error("data_X\n_a.b \"x\n") == head + "a value in double quotes is not closed on its line");
+  CHECK(mmcif_error("data_X\n_a.b\n;x\n") ==
+        "a.cif:4: not valid CIF: a text field is not closed by a line that begins with ';'");
+  CHECK(mmcif_error("data_X\nsave_ _a.b 1\n") == head + "a save frame has no name");
+  CHECK(mmcif_error("data_X\nx\n") == head + "a tag with its value, or a loop, was expected");
+  CHECK(mmcif_error("data_X\n_a.b 1\n_a.b 2\n") == "a.cif:3: not valid CIF: the tag '_a.b' is given twice");
+  CHECK(mmcif_error("data_X\n_a.b 1\ndata_X\n_a.b 2\n") == "a.cif: not valid CIF: two data blocks are named 'X'");
+  CHECK(mmcif_error(kMmcifHead + row + "data_Y\n_atom_site.id 1\n") ==
+        "a.cif: the mmCIF cannot be read: two data blocks have atoms; keep one");
+  std::string coded = kMmcifHead + row;
+  CHECK(mmcif_error(coded.replace(coded.rfind(" . ALA"), 3, " AB ")) ==
+        "a.cif: the mmCIF cannot be read: an alternate location or insertion code is 'AB'; one letter was expected");
+  std::string without = kMmcifHead + row;
+  CHECK(mmcif_error(without.replace(without.find("label_comp_id"), 13, "label_comp_ix")) ==
+        "a.cif: the mmCIF cannot be read: the column _atom_site.label_comp_id is missing");
+}
+
 TEST_CASE("read_mmcif: bad syntax, no atoms, missing columns, missing model") {
   CHECK(mmcif_error(kMmcifHead + "ATOM 1 N N\n") ==
         "a.cif:3: not valid CIF: the values of a loop do not fill its columns");

@@ -97,3 +97,22 @@ TEST_CASE("read_topology: ubiquitin's PSF gives the charges of its PQR; DHFR's p
   CHECK(sum(dhfr.charges) == doctest::Approx(-11).epsilon(1e-4));
   CHECK(message_of([&] { take_topology(molecule, dhfr); }).find("has 23558 atoms, and") != std::string::npos);
 }
+
+TEST_CASE("read_psf_atoms: residues, chains and charges; a prmtop is refused") {
+  const ScratchFolder folder;
+  const Molecule molecule =
+      read_psf_atoms(folder.write("a.psf",
+                                  "PSF\n\n       3 !NATOM\n       1 PROT 7    ALA  N    NH1  -0.470000  14.0070  0\n"
+                                  "       2 PROT 7    ALA  CA   CT1   0.070000  12.0110  0\n       3 PROT 8A   GLY  N  "
+                                  "  NH1  -0.400000  14.0070  0\n"));
+  REQUIRE(molecule.size() == 3);
+  CHECK(molecule.charges == std::vector<float>{-0.47F, 0.07F, -0.4F});
+  REQUIRE(molecule.residues.size() == 2);
+  CHECK(molecule.residues[1].name == "GLY");
+  CHECK(molecule.residues[1].number == 8);
+  CHECK(molecule.residues[1].insertion_code == 'A');
+  CHECK(molecule.residues[1].chain == "PROT");
+  CHECK(molecule.atoms[1].element == "C");
+  CHECK(molecule.radii[0] > 1);
+  CHECK(message_of([&] { read_psf_atoms(folder.write("a.pdb", "ATOM  \n")); }).find("is no PSF") != std::string::npos);
+}

@@ -180,19 +180,28 @@ TEST_CASE("read_vti: direction matrix and an extent that starts elsewhere") {
 
 TEST_CASE("read_vti: arrays by name, by being the scalars, by being the only one") {
   const std::string two = ascii_array("Float32", "a", kAscii) + ascii_array("Float32", "b", "1 1 1 1 1 1 1 1 1 1 1 2");
-  CHECK(attempt(kImage + point_data(two) + kEnd, {"b"}).grid.values.back() == 2);
+  CHECK(attempt(kImage + point_data(two) + kEnd, {"b", ""}).grid.values.back() == 2);
   CHECK(attempt(kImage + point_data(two, " Scalars=\"b\"") + kEnd).grid.values.back() == 2);
-  CHECK(attempt(kImage + point_data(two, " Scalars=\"b\"") + kEnd, {"a"}).grid.values == kValues);
+  CHECK(attempt(kImage + point_data(two, " Scalars=\"b\"") + kEnd, {"a", ""}).grid.values == kValues);
   const Outcome unclear = attempt(kImage + point_data(two) + kEnd);
   CHECK(unclear.error_class == ErrorClass::kInput);
   CHECK(unclear.message == "a.vti: no point array is marked as scalars; choose one by name (point arrays: 'a', 'b')");
-  const Outcome absent = attempt(kImage + point_data(two) + kEnd, {"c"});
+  const Outcome absent = attempt(kImage + point_data(two) + kEnd, {"c", ""});
   CHECK(absent.message == "a.vti: has no point array 'c'; it has 'a', 'b'");
   CHECK(attempt(kImage + kEnd).message == "a.vti: has no point arrays; save the map as point data");
   const Outcome vectors = attempt(
       kImage + point_data(ascii_array("Float32", "v", kAscii + " " + kAscii, " NumberOfComponents=\"2\"")) + kEnd,
-      {"v"});
+      {"v", ""});
   CHECK(vectors.message == "a.vti: point array 'v' has 2 components; one number a point was expected");
+}
+
+TEST_CASE("read_vti: an array's name that is of another quantity than a potential is kept") {
+  const auto title = [](const std::string& name) {
+    return attempt(kImage + point_data(ascii_array("Float32", name, kAscii)) + kEnd).grid.contradicting_title;
+  };
+  CHECK(title("charge_density") == "charge_density");
+  CHECK(title("potential").empty());
+  CHECK(title("a").empty());
 }
 
 TEST_CASE("list_vti_scalars: names of arrays with one number a point, in file order, whatever their values") {

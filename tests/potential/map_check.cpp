@@ -159,8 +159,7 @@ TEST_CASE("a map of another unit, sign, place, molecule or quantity is named") {
   CHECK(has(a.check(times(right, -1)), "has its sign turned"));
   Grid shifted = right;
   shifted.lattice.origin += Vec3d{3, 0, 0};
-  Grid nothing = times(right, 0);
-  nothing.name = "a.dx (which calls itself '# CHARGE DENSITY (e/A^3)')";
+  const Grid nothing = times(right, 0);
   for (const Grid& wrong : {shifted, b.map(PotentialMethod::kPoissonBoltzmann), nothing}) {
     const Checked c = a.check(wrong);
     CAPTURE(c.text);
@@ -169,7 +168,25 @@ TEST_CASE("a map of another unit, sign, place, molecule or quantity is named") {
     CHECK(has(c, "(limit 0.93)"));
     CHECK(has(c, "trust-maps 1 takes it as it is"));
   }
-  CHECK(has(a.check(nothing), "(a.dx (which calls itself '# CHARGE DENSITY (e/A^3)'))"));
+}
+
+TEST_CASE("a map whose title is of another quantity or unit is named, and refused where its values cannot be checked") {
+  if (!can_run()) return;
+  Molecule few = ball(1);
+  const Reference whole(few);
+  Grid map = whole.map(PotentialMethod::kPoissonBoltzmann);
+  map.name = "a.dx";
+  map.contradicting_title = "CHARGE DENSITY (e/A^3)";
+  const Checked checked = whole.check(map);
+  CHECK_FALSE(checked.refuses);
+  CHECK_MESSAGE(has(checked,
+                    "the map of the source (a.dx) calls itself 'CHARGE DENSITY (e/A^3)', but is taken as a "
+                    "potential in kT/e; make sure of it"),
+                checked.text);
+  for (std::size_t i = 60; i < few.size(); ++i) few.charges[i] = 0;
+  const Checked unchecked = Reference(few).check(map);
+  CHECK(unchecked.refuses);
+  CHECK_MESSAGE(has(unchecked, "which cannot be checked; give the map of the potential"), unchecked.text);
 }
 
 TEST_CASE("a molecule without enough charges, and a map that misses it, are not checked") {
@@ -220,17 +237,32 @@ TEST_CASE("PMEPot's maps are trustworthy, in vacuum; two kinds are refused, and 
   CHECK(potential_label(pmepot) == "given map in vacuum, smooth part");
   CHECK(water.certificate.trustworthy);
   CHECK(potential_unit_text(water) == "kT/e");
-  const espdiff::CompareResult mixed = compared(a, b, pb_a, pme_b);
-  CHECK_FALSE(mixed.certificate.trustworthy);
-  CHECK(warns(mixed,
-              "two kinds of potential are compared: the source's is given map as in salt water, the target's "
-              "given map in vacuum, smooth part"));
+  const std::string kinds =
+      "two kinds of potential are compared: the source's is given map as in salt water, the target's "
+      "given map in vacuum, smooth part";
+  CHECK(message_of([&] { compared(a, b, pb_a, pme_b); }) ==
+        kinds +
+            "; one in vacuum is tens of times one in salt water: compute both alike, or compare them as they are by "
+            "trust-maps 1");
+  const espdiff::CompareResult mixed = compared(a, b, pb_a, pme_b, true);
+  CHECK(warns(mixed, kinds + ": one in vacuum is tens of times one in salt water"));
   CHECK_FALSE(compared(a, b, pb_a, pb_a).certificate.trustworthy);
   CHECK(warns(compared(a, b, pb_a, pb_a), "one map is given for two different states"));
   const espdiff::CompareResult trusted = compared(a, b, pb_a, pb_a, true);
   CHECK(trusted.certificate.trustworthy);
   CHECK(warns(trusted, "one map is given for two different states"));
   CHECK(compared(a, a, pb_a, pb_a).certificate.trustworthy);
+}
+
+TEST_CASE("a map of Coulomb's law in a dielectric is not taken for one in vacuum") {
+  if (!can_run()) return;
+  const Reference a(ball(1)), b(ball(2));
+  const Grid pb = b.map(PotentialMethod::kPoissonBoltzmann);
+  for (const double dielectric : {1.0, 78.0}) {
+    const Grid map = a.map(PotentialMethod::kCoulomb, [&](auto& o) { o.coulomb.dielectric = dielectric; });
+    const std::string message = message_of([&] { compared(a, b, map, pb); });
+    CHECK((message.find("two kinds of potential are compared") == 0) == (dielectric == 1));
+  }
 }
 
 TEST_SUITE_END();

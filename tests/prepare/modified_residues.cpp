@@ -3,11 +3,13 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <sstream>
 
 #include "align/residue_names.h"
 #include "base/input_options.h"
 #include "io/read_structure.h"
+#include "io/select_atoms.h"
 #include "prepare/open_babel.h"
 #include "prepare/pdb2pqr.h"
 #include "support/test_data.h"
@@ -199,4 +201,48 @@ TEST_CASE("prepare_molecule: a chain too short for PROPKA gets its usual states,
   REQUIRE_FALSE(brief.preparation.notes.empty());
   CHECK(brief.preparation.notes.back().find("no PROPKA, which cannot use so short a chain") == 0);
   CHECK(brief.molecule.size() > molecule_from(text).size());
+}
+
+TEST_CASE("a nucleotide that no force field has gets charges within its chain; beside one it is a ligand") {
+  const std::string path = "/usr/share/doc/theseus/examples/1s40.pdb.gz";
+  if (!std::filesystem::exists(path) || find_open_babel().empty() || find_pdb2pqr().empty()) return;
+  const Molecule entry = read_structure(path, {});
+  std::vector<bool> is_dna;
+  for (const Atom& atom : entry.atoms)
+    is_dna.push_back(entry.residues[static_cast<std::size_t>(atom.residue)].chain == "B");
+  Molecule dna = keep_atoms(entry, is_dna);
+  ChargeOptions options;
+  options.use_cache = false;
+  const Prepared usual = prepare_molecule(dna, options, {}, Progress());
+  dna.residues[4].name = "5XG";
+  const auto atoms = atoms_of_residues(dna);
+  CHECK(nucleotide_source(dna, 4, atoms, true) == GroupSource::kModified);
+  CHECK(nucleotide_source(dna, 4, atoms, false) == GroupSource::kNone);
+  CHECK(nucleotide_source(dna, 3, atoms, true) == GroupSource::kNone);
+  CHECK(nucleotide_source(residue_alone(dna, 4, atoms[4]), 0, {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}}, true) ==
+        GroupSource::kOpenBabel);
+  const Prepared modified = prepare_molecule(dna, options, {}, Progress());
+  CHECK(modified.molecule.size() == usual.molecule.size());
+  CHECK(net_charge(modified.molecule) == doctest::Approx(net_charge(usual.molecule)).epsilon(1e-3));
+  CHECK(modified.molecule.residues[4].name == "5XG");
+  REQUIRE(modified.preparation.groups.size() == 1);
+  CHECK(modified.preparation.groups[0].find("5XG ") == 0);
+  CHECK(modified.preparation.groups[0].find(": -1 e, in its chain, by Open Babel") != std::string::npos);
+}
+
+TEST_CASE("rename_residues: the phosphate at the 5' end is left out with a warning, those within the chain stay") {
+  const auto nucleotide = [](int number, double x) {
+    return record(1, " P", "  G", number, {x, 0, 0}, "P") + record(2, " OP3", "  G", number, {x, 1.5, 0}, "O") +
+           record(3, " O5'", "  G", number, {x + 1.6, 0, 0}, "O") +
+           record(4, " O2'", "  G", number, {x + 3, 3, 0}, "O") +
+           record(5, " O3'", "  G", number, {x + 4.4, 0, 0}, "O");
+  };
+  Molecule molecule = molecule_from(nucleotide(1, 0) + nucleotide(2, 6));
+  Preparation preparation;
+  rename_residues(molecule, preparation);
+  CHECK(molecule.size() == 8);
+  CHECK(molecule.atoms[0].name == "O5'");
+  CHECK(preparation.warnings ==
+        std::vector<std::string>{"the phosphate at the 5' end was left out (-2 e), since no force field of PDB2PQR has "
+                                 "it: G 1 of chain A"});
 }

@@ -185,9 +185,9 @@ TEST_CASE("prepare_molecule: a phosphorylated residue and a ligand get no charge
         "Babel make them, which is not there: install it (Debian: openbabel) (ligands auto), give a MOL2 file of each "
         "with hydrogens (ligand FILE), charges for all atoms (topology FILE, charges-from FILE or a PQR), or drop them "
         "(leave-out (ATP))");
-  unsetenv("ESPDIFF_OBABEL");
   const std::string phosphorylated = replaced(text, "TYR A", "PTR A");
   CHECK(message_of([&] { prepare(read(folder, phosphorylated, "ptr.pdb")); }).find("PTR") != std::string::npos);
+  unsetenv("ESPDIFF_OBABEL");
   InputOptions options;
   options.charges.use_cache = false;
   options.leave_out = "(ATP,CA)";
@@ -369,6 +369,7 @@ TEST_CASE("prepare_molecule: a name without charges is found before the program 
   const std::string program = folder.write("program", "#!/bin/sh\ntouch '" + folder.file("ran") + "'\nexit 1\n");
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   setenv("ESPDIFF_PDB2PQR", program.c_str(), 1);
+  setenv("ESPDIFF_OBABEL", "/nowhere/obabel", 1);
   const std::string ligand = "HETATM 9001  C1  LIG A 302      70.000  60.000  60.000  1.00  0.00           C\n";
   CHECK(message_of([&] { prepare(read(folder, text + ligand)); }).find("in.pdb: 1 atom gets no charge") == 0);
   const std::string dna = "ATOM   9001  P    DA B   1      70.000  60.000  60.000  1.00  0.00           P\n";
@@ -378,6 +379,7 @@ TEST_CASE("prepare_molecule: a name without charges is found before the program 
         "in.pdb: 1 atom gets no charge from PDB2PQR's force field parse: DA 1 of chain B (first atom P); take a force "
         "field that has nucleotides (force-field amber), or drop them (leave-out (DA))");
   unsetenv("ESPDIFF_PDB2PQR");
+  unsetenv("ESPDIFF_OBABEL");
   CHECK_FALSE(std::filesystem::exists(folder.file("ran")));
 }
 
@@ -428,4 +430,20 @@ TEST_CASE("load_state: what is left out is kept aside with its charge, and PROPK
   CHECK(state.preparation->notes ==
         std::vector<std::string>{"PROPKA saw 1 group beside the chains that the molecule leaves out"});
   for (const Residue& residue : state.molecule.residues) CHECK(residue.name != "ZN");
+}
+
+TEST_CASE("prepare_molecule: a free amino acid under a chain's name, for which PDB2PQR renames the chain") {
+  const std::string text = lysozyme(1, 20);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  const std::string free =
+      "HETATM 9000  N   GLY A 901      60.000  60.000  60.000  1.00  0.00           N\n"
+      "HETATM 9001  CA  GLY A 901      61.458  60.000  60.000  1.00  0.00           C\n"
+      "HETATM 9002  C   GLY A 901      62.009  61.420  60.000  1.00  0.00           C\n"
+      "HETATM 9003  O   GLY A 901      61.251  62.391  60.000  1.00  0.00           O\n"
+      "HETATM 9004  OXT GLY A 901      63.230  61.600  60.000  1.00  0.00           O\n";
+  const Prepared alone = prepare(read(folder, text)), both = prepare(read(folder, text + free));
+  CHECK(both.molecule.residues.size() == alone.molecule.residues.size() + 1);
+  for (const Residue& residue : both.molecule.residues) CHECK(residue.chain == "A");
+  CHECK(both.preparation.net_charge == doctest::Approx(alone.preparation.net_charge).epsilon(1e-3));
 }

@@ -174,7 +174,7 @@ def test_effective_samples_are_those_of_the_definition(ensemble):
 
 
 def test_family_wise_p_are_those_of_mne(ensemble):
-    """The largest |t| of every arrangement, exactly. MNE's TFCE counts vertices where ours adds their areas, which are
+    """The largest |t| of every permutation, exactly. MNE's TFCE counts vertices where ours adds their areas, which are
     about equal; the scores must agree up to that."""
     cluster_level = pytest.importorskip("mne.stats.cluster_level")
     sparse = pytest.importorskip("scipy.sparse")
@@ -191,7 +191,7 @@ def test_family_wise_p_are_those_of_mne(ensemble):
     def welch(first, second):
         return stats.ttest_ind(second, first, equal_var=False).statistic
 
-    # Max-t: every arrangement, exactly.
+    # Max-t: every permutation, exactly.
     from itertools import combinations
 
     maxima = [np.abs(welch(means[list(chosen)], means[[r for r in range(8) if r not in chosen]])).max()
@@ -210,7 +210,7 @@ def test_family_wise_p_are_those_of_mne(ensemble):
     strong = np.abs(ours) > np.abs(ours).max() / 10
     assert np.median(np.abs(scores)[strong] * scale / np.abs(ours)[strong]) == pytest.approx(1, rel=0.1)
 
-    # Its p, of arrangements drawn at random, where ours are of all 70: up to the error of 300 draws, 0.03 at most.
+    # Its p, of permutations drawn at random, where ours are of all 70: up to the error of 300 draws, 0.03 at most.
     step = t.max() / 60
     drawn = pytest.importorskip("mne.stats").permutation_cluster_test(
         [means[:4], means[4:]], threshold=dict(start=step / 2, step=step), n_permutations=300, tail=0, stat_fun=welch,
@@ -257,7 +257,7 @@ def test_regression_is_that_of_scipy(ensemble):
              for g, group in enumerate(("wild", "mutant")) for k in range(1, 5)]
     (folder / "values.csv").write_text("\n".join(rows) + "\n")
     command = [PROGRAM, "ensemble", "--from", "out.h5", "-o", "regressed", "-q", "--regress", "values.csv:activity",
-               "--arrangements", "200"]
+               "--permutations", "200"]
     run = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
     vtp = vtp_arrays(folder / "regressed.vtp")

@@ -12,7 +12,7 @@ import espdiff
 FOLDER = pathlib.Path(__file__).resolve().parents[1] / "data" / "ensembles"
 GROUPS = {name: sorted(glob.glob(str(FOLDER / f"trpcage_{name}_?.pdb.gz")))[:3] for name in ("wild", "mutant")}
 CHARGES = {name: str(FOLDER / f"trpcage_{name}.pqr") for name in GROUPS}
-QUICK = {"potential": "coulomb", "grid_spacing": 1.5, "arrangements": 20, "frames": "0:60:99"}
+QUICK = {"potential": "coulomb", "grid_spacing": 1.5, "permutations": 20, "frames": "0:60:99"}
 OUTPUTS = (".h5", ".json", ".vtp", ".residues.csv", ".patches.csv", ".patch_series.csv")
 pytestmark = pytest.mark.filterwarnings("ignore:.*replicates")
 
@@ -60,7 +60,7 @@ def test_arrays_and_tables(whole):
 
 def test_statistics_of_an_earlier_run(whole, tmp_path):
     (tmp_path / "out.h5").write_bytes(whole[1][".h5"])
-    again = espdiff.ensemble(from_file=tmp_path / "out.h5", output=tmp_path / "again", alpha=0.2, arrangements=20)
+    again = espdiff.ensemble(from_file=tmp_path / "out.h5", output=tmp_path / "again", alpha=0.2, permutations=20)
     assert np.array_equal(again.p, whole[0].p, equal_nan=True)
     assert again.to_dict()["options"]["alpha"] == 0.2
 
@@ -71,9 +71,9 @@ def test_regression_has_the_bytes_of_the_command_line(whole, program, tmp_path):
     (tmp_path / "values.csv").write_text("\n".join(["group,replicate,activity", *rows]) + "\n")
     (tmp_path / "out.h5").write_bytes(whole[1][".h5"])
     column = f"{tmp_path / 'values.csv'}:activity"
-    made = espdiff.ensemble(from_file=tmp_path / "out.h5", output=tmp_path / "one", regress=column, arrangements=20)
+    made = espdiff.ensemble(from_file=tmp_path / "out.h5", output=tmp_path / "one", regress=column, permutations=20)
     assert made.to_dict()["regression"]["replicates"][3]["value"] == 4.2
-    subprocess.run([program, "ensemble", "--from", tmp_path / "out.h5", "--regress", column, "--arrangements", "20", "-q", "-o",
+    subprocess.run([program, "ensemble", "--from", tmp_path / "out.h5", "--regress", column, "--permutations", "20", "-q", "-o",
                     tmp_path / "two"], check=True)
     for ending in (".json", ".vtp", ".regression.csv"):
         assert (tmp_path / f"one{ending}").read_bytes() == (tmp_path / f"two{ending}").read_bytes()
@@ -183,7 +183,7 @@ def test_maps_of_other_programs(tmp_path):
                 write_constant_map(tmp_path / f"{replicate}.{frame}.dx", (3 if group == "mutant" else 1) + 0.1 * r + 0.01 * frame)
     groups = {group: [file for file in GROUPS[group] if any(name in str(file) for name in names[group])] for group in names}
     maps = {group: tmp_path / "{replicate}.%d.dx" for group in names}
-    result = espdiff.ensemble(groups, maps=maps, frames="0:50:end", grid_spacing=2, arrangements=20)
+    result = espdiff.ensemble(groups, maps=maps, frames="0:50:end", grid_spacing=2, permutations=20)
     tested = result.tested != 0
     assert tested.any() and np.allclose(result.difference[tested], 2, atol=1e-5)
     assert np.allclose(result.means["wild"][tested], 1 + 0.05 + 0.25, atol=1e-5)

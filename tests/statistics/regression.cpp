@@ -62,7 +62,7 @@ TEST_CASE("correlation, slope, t and p are Pearson's") {
   CHECK(fit.correlation[0] == doctest::Approx(0.9258129).epsilon(1e-6));
   CHECK(fit.p[0] == doctest::Approx(0.0239846).epsilon(1e-5));
   CHECK(fit.t[0] == doctest::Approx(fit.correlation[0] * std::sqrt(3 / (1 - fit.correlation[0] * fit.correlation[0]))));
-  CHECK(fit.n_arrangements == 120);
+  CHECK(fit.n_permutations == 120);
   CHECK(fit.exact);
   CHECK(fit.smallest_p == doctest::Approx(1.0 / 120));
 }

@@ -69,7 +69,7 @@ TEST_CASE("a planted patch is found, and nothing opposite") {
   const MeshGraph graph = ellipsoid();
   const auto means = means_of(summarize_columns(planted(graph, 10, 200, 1.5, 31)));
   const SurfaceTest test = test_replicates(means, 5, graph, {});
-  CHECK(test.n_arrangements == 252);
+  CHECK(test.n_permutations == 252);
   CHECK(test.exact);
   CHECK(test.p_tfce[0] == doctest::Approx(2.0 / 252));
   CHECK(test.p_max_t[3] > 0.05);
@@ -112,7 +112,7 @@ TEST_CASE("one replicate a group: exchanged blocks find the patch") {
   CHECK(test.inference == Inference::kWithinRuns);
   CHECK(test.no_p.empty());
   CHECK(test.blocks.n == std::vector<std::size_t>{7, 7});
-  CHECK(test.n_arrangements == 3432);
+  CHECK(test.n_permutations == 3432);
   CHECK(test.exact);
   CHECK(test.p_tfce[0] == doctest::Approx(2.0 / 3432));
   CHECK(test.p_max_t[3] > 0.05);
@@ -141,7 +141,7 @@ TEST_CASE("runs of different lengths are exchanged in blocks of one length") {
   }
   const auto replicates = summarize_columns(columns);
   SurfaceTestOptions options;
-  options.most_arrangements = 500;
+  options.max_permutations = 500;
   const SurfaceTest test =
       test_within_runs(columns, replicates, 1, std::vector<char>(graph.n_vertices(), 1), graph, options);
   CHECK(test.blocks.n[0] == 7);

@@ -8,11 +8,14 @@
 
 #include "base/error.h"
 #include "compare/result.h"
+#include "io/read_csv.h"
 #include "support/test_data.h"
+#include "trajectory/residue_plot.h"
 
 using namespace espdiff_test;
 using espdiff::CompareResult;
 using espdiff::ExistingFile;
+using espdiff::FrameMap;
 using espdiff::Molecule;
 using espdiff::ResidueCsv;
 using espdiff::ResidueRow;
@@ -39,7 +42,9 @@ CompareResult result(double first) {
   return made;
 }
 
-void add(ResidueCsv& file, int frame, double value) { file.add(file.row(frame, molecule(), result(value)), "abc"); }
+void add(ResidueCsv& file, int frame, double value) {
+  file.add(file.row(frame, molecule(), molecule(), result(value)), "abc");
+}
 
 constexpr const char* kResidueHead =
     "# residues: mean_abs_difference [kT/e]\n# trajectory: abc\nframe,A:LYS 12,A:GLY 12B,HEM 1\n";
@@ -121,13 +126,54 @@ TEST_CASE("residues of another run are refused, and the file is left as it is") 
         ": has mean_abs_difference of another run, or mean_slip_A was asked for; overwrite begins anew");
 }
 
+TEST_CASE(
+    "residues of a target with other numbers and chains: their partners stand in the head, and stay when resumed") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("r.csv");
+  Molecule source = molecule(), target = molecule();
+  target.residues = {{"GLY", "B", 13, 'B'}, {"LYS", "B", 13, ' '}, {"HEM", "", 1, ' '}};
+  CompareResult paired = result(0.5);
+  const std::vector<std::int32_t> of_atoms = {0, 1, 2};
+  for (Molecule* m : {&source, &target}) {
+    for (const std::int32_t residue : of_atoms) {
+      m->atoms.push_back({"CA", "C", residue, false});
+      m->positions.push_back({});
+    }
+  }
+  paired.pairing.pairs = {{0, 1}, {2, 2}};  // LYS and HEM; GLY has none
+  const auto add_frame = [&](ResidueCsv& file, int frame) { file.add(file.row(frame, source, target, paired), "abc"); };
+  const std::string head =
+      "# residues: mean_abs_difference [kT/e]\n# trajectory: abc\n# partners: ,B:LYS 13,,HEM 1\n"
+      "frame,A:LYS 12,A:GLY 12B,HEM 1\n";
+  const std::string whole = head + "3,0.5,,2.5\n5,0.5,,2.5\n";
+  {
+    ResidueCsv file(path, "", ExistingFile::kRefuse);
+    add_frame(file, 3);
+    add_frame(file, 5);
+  }
+  CHECK(read_file(path) == whole);
+  const FrameMap map = espdiff::residue_map(espdiff::read_csv(path));
+  CHECK(map.labels == std::vector<std::string>{"A:LYS 12", "HEM 1"});
+  CHECK(map.partners == std::vector<std::string>{"B:LYS 13", "HEM 1"});
+  for (std::size_t n = 0; n <= whole.size(); ++n) {
+    CAPTURE(n);
+    const bool first_is_there = n >= head.size() + 11;
+    std::ofstream(path) << whole.substr(0, n);
+    ResidueCsv file(path, "", ExistingFile::kResume);
+    file.resume(first_is_there ? std::vector<std::string>{"3"} : std::vector<std::string>{}, "abc");
+    if (!first_is_there) add_frame(file, 3);
+    add_frame(file, 5);
+    CHECK(read_file(path) == whole);
+  }
+}
+
 TEST_CASE("a frame with other residues is refused") {
   const ScratchFolder folder;
   ResidueCsv file(folder.file("r.csv"), "", ExistingFile::kRefuse);
   add(file, 0, 1);
   Molecule other = molecule();
   other.residues[0].number = 13;
-  CHECK(message_of([&] { file.row(1, other, result(1)); }) ==
+  CHECK(message_of([&] { file.row(1, other, other, result(1)); }) ==
         folder.file("r.csv") + ": this frame has other residues than the first: 3 instead of 3, or other names");
 }
 

@@ -68,6 +68,16 @@ test "legends of two drawings stand above each other, and name them" {
     check_equal "one is left, without a name" [lsearch [legend_texts] "*->*"] -1
 }
 
+test "the legend of coloured atoms stands above or below that of the surface" {
+    espdiff draw $comparison
+    espdiff atoms $comparison -mol target -show 1
+    set heights [lmap mol [dict keys $::espdiff::legends] { lindex [molinfo $mol get global_matrix] 0 1 3 }]
+    check_equal legends [llength $heights] 2
+    check "apart: $heights" {abs([lindex $heights 0] - [lindex $heights 1]) > 0.1}
+    espdiff uncolor $comparison
+    espdiff undraw
+}
+
 test "the molecules of a drawing can be told apart, and are hidden and shown together" {
     set drawn [espdiff draw $comparison]
     set names [lmap mol $drawn { lindex [molinfo $mol get name] 0 }]

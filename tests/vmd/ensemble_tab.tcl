@@ -10,6 +10,13 @@ tab ensemble
 array set ::espdiff::gui::setting {grid-spacing 1.6}
 proc message_line {} { [widget ensemble,message] cget -text }
 
+test "a wrong selection is refused before it is in the list" {
+    form ensemble,mol "[lindex $mols 0]: [molinfo [lindex $mols 0] get name]" ensemble,sel protin
+    press ensemble,add
+    check "said: [message_line]" {[string match "Atoms: the selection 'protin' of molecule * not understood by VMD*" [message_line]]}
+    check_equal "nothing is added" [[widget ensemble,list] children {}] {}
+}
+
 test "molecules are replicates of the group that is named" {
     foreach mol $mols {
         form ensemble,group [expr {[lsearch $mols $mol] < 4 ? "wild" : "mutant"}] \

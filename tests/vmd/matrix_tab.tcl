@@ -18,8 +18,18 @@ proc wait_until {condition} {
 update
 array set ::espdiff::gui::setting {grid-spacing 2}
 
-test "frames of the molecule are variants" {
+test "a wrong selection is refused before it is in the list" {
     set ::espdiff::gui::form(matrix,frames) 0:30:60
+    foreach {sel words} {protin "not understood by VMD" "resname XXX" "holds no atoms"} {
+        set ::espdiff::gui::form(matrix,sel) $sel
+        [widget matrix,add] invoke
+        set said [[widget matrix,message] cget -text]
+        check "said: $said" {[string match "Atoms: the selection '$sel' of molecule $mol (adk.psf) *$words*" $said]}
+        check_equal "nothing is added" [[widget matrix,list] children {}] {}
+    }
+}
+
+test "frames of the molecule are variants" {
     set ::espdiff::gui::form(matrix,sel) protein
     [widget matrix,add] invoke
     set labels {}

@@ -44,7 +44,7 @@ test "by command: hydrogens, charges and radii of a selection" {
 }
 
 test "refused: no charges for the ligand, no map, no such file" {
-    check_refused {espdiff prepare [list mol $target sel "not water"] -pqr $scratch/no.pqr} {ESPDIFF INPUT} \
+    check_refused {espdiff prepare [list mol $target sel "not water"] -ligands files -pqr $scratch/no.pqr} {ESPDIFF INPUT} \
         "get no charges from PDB2PQR" "-leave-out (BNZ,HED)"
     check "no file" {![file exists $scratch/no.pqr]}
     check_refused {espdiff prepare [list mol $target map pb] -pqr $scratch/no.pqr} {ESPDIFF INPUT} "is not of a preparation"

@@ -263,11 +263,13 @@ test "explicit water: the mean over frames has a small part of the differences o
         set rows [dict get [::espdiff::core::read_csv $scratch/water.csv] rows]
         set difference($name) [dict get [lindex $rows 1] mean_abs_difference]
         set warnings($name) [dict get [lindex $rows 1] warnings]
+        set trusted($name) [dict get [lindex $rows 1] trustworthy]
         check_equal "$name: nothing outside its map" [expr {[dict get [lindex $rows 1] outside_maps] < 0.001}] 1
     }
     note "    mean |difference|: $difference(single) with single frames, $difference(mean) with means over 8"
     check "a tenth at most" {$difference(mean) < 0.1 * $difference(single)}
     check "warned" {[string match "*single frames with explicit water*" $warnings(single)]}
+    check_equal "never trustworthy" $trusted(single) 0
     check "not warned" {![string match "*single frames with explicit water*" $warnings(mean)]}
     # A part that was asked for is taken.
     espdiff trajectory {*}$run -map {pme average 2 part smooth}

@@ -1,5 +1,5 @@
-// arrangements.cpp: enumerates or draws the labels of replicates.
-#include "statistics/arrangements.h"
+// permutations.cpp: enumerates or draws the labels of replicates.
+#include "statistics/permutations.h"
 
 #include <algorithm>
 #include <numeric>
@@ -23,12 +23,12 @@ Order order_of(const std::vector<char>& in_first) {
 }
 
 /// A random choice of the first group: a partial shuffle (Fisher and Yates).
-Order random_order(std::size_t n_first, std::size_t n, std::uint64_t seed, std::uint64_t arrangement) {
+Order random_order(std::size_t n_first, std::size_t n, std::uint64_t seed, std::uint64_t permutation) {
   Order all(n);
   std::iota(all.begin(), all.end(), 0U);
   std::vector<char> in_first(n, 0);
   for (std::size_t i = 0; i < n_first; ++i) {
-    std::swap(all[i], all[i + random_below(n - i, seed, arrangement, i)]);
+    std::swap(all[i], all[i + random_below(n - i, seed, permutation, i)]);
     in_first[all[i]] = 1;
   }
   return order_of(in_first);
@@ -36,7 +36,7 @@ Order random_order(std::size_t n_first, std::size_t n, std::uint64_t seed, std::
 
 }  // namespace
 
-std::uint64_t count_arrangements(std::size_t n_first, std::size_t n_second) {
+std::uint64_t count_permutations(std::size_t n_first, std::size_t n_second) {
   constexpr std::uint64_t kMany = std::uint64_t{1} << 63;
   std::uint64_t count = 1;
   for (std::size_t i = 1; i <= std::min(n_first, n_second); ++i) {
@@ -48,20 +48,20 @@ std::uint64_t count_arrangements(std::size_t n_first, std::size_t n_second) {
 }
 
 double smallest_p(std::size_t n_first, std::size_t n_second, std::uint64_t most) {
-  const std::uint64_t possible = count_arrangements(n_first, n_second);
+  const std::uint64_t possible = count_permutations(n_first, n_second);
   if (possible > most) return 1.0 / static_cast<double>(most);
   return (n_first == n_second ? 2.0 : 1.0) / static_cast<double>(possible);
 }
 
-double Arrangements::smallest_p() const {
+double Permutations::smallest_p() const {
   return exact ? espdiff::smallest_p(n_first, n_second, n_possible) : 1.0 / static_cast<double>(orders.size());
 }
 
-Arrangements make_arrangements(std::size_t n_first, std::size_t n_second, std::uint64_t most, std::uint64_t seed) {
-  Arrangements all;
+Permutations make_permutations(std::size_t n_first, std::size_t n_second, std::uint64_t most, std::uint64_t seed) {
+  Permutations all;
   all.n_first = n_first;
   all.n_second = n_second;
-  all.n_possible = count_arrangements(n_first, n_second);
+  all.n_possible = count_permutations(n_first, n_second);
   all.exact = all.n_possible <= most;
   const std::size_t n = n_first + n_second;
   std::vector<char> in_first(n, 0);

@@ -1,5 +1,5 @@
-// arrangements.cpp: how labels of replicates can be exchanged.
-#include "statistics/arrangements.h"
+// permutations.cpp: how labels of replicates can be exchanged.
+#include "statistics/permutations.h"
 
 #include <doctest/doctest.h>
 
@@ -12,21 +12,21 @@
 
 using namespace espdiff;
 
-TEST_SUITE_BEGIN("arrangements");
+TEST_SUITE_BEGIN("permutations");
 
-TEST_CASE("few replicates allow few arrangements, which bound p") {
-  CHECK(count_arrangements(3, 3) == 20);
-  CHECK(count_arrangements(4, 4) == 70);
-  CHECK(count_arrangements(2, 5) == 21);
-  CHECK(count_arrangements(500, 500) == std::uint64_t{1} << 63);
+TEST_CASE("few replicates allow few permutations, which bound p") {
+  CHECK(count_permutations(3, 3) == 20);
+  CHECK(count_permutations(4, 4) == 70);
+  CHECK(count_permutations(2, 5) == 21);
+  CHECK(count_permutations(500, 500) == std::uint64_t{1} << 63);
   CHECK(smallest_p(3, 3) == doctest::Approx(0.1));
   CHECK(smallest_p(4, 4) == doctest::Approx(2.0 / 70));
   CHECK(smallest_p(2, 5) == doctest::Approx(1.0 / 21));
   CHECK(smallest_p(20, 20) == doctest::Approx(1e-4));
 }
 
-TEST_CASE("all arrangements are listed once, the observed one first") {
-  const Arrangements all = make_arrangements(3, 4);
+TEST_CASE("all permutations are listed once, the observed one first") {
+  const Permutations all = make_permutations(3, 4);
   CHECK(all.exact);
   CHECK(all.smallest_p() == doctest::Approx(1.0 / 35));
   REQUIRE(all.orders.size() == 35);
@@ -41,8 +41,8 @@ TEST_CASE("all arrangements are listed once, the observed one first") {
   }
 }
 
-TEST_CASE("many arrangements are sampled, each replicate as often in each group") {
-  const Arrangements all = make_arrangements(10, 10, 4000, 7);
+TEST_CASE("many permutations are sampled, each replicate as often in each group") {
+  const Permutations all = make_permutations(10, 10, 4000, 7);
   CHECK_FALSE(all.exact);
   REQUIRE(all.orders.size() == 4000);
   CHECK(all.smallest_p() == doctest::Approx(1.0 / 4000));
@@ -52,8 +52,8 @@ TEST_CASE("many arrangements are sampled, each replicate as often in each group"
   }
   // Binomial(4000, 1/2): five standard deviations are 158.
   for (const int n : in_first) CHECK(std::abs(n - 2000) < 158);
-  CHECK(make_arrangements(10, 10, 4000, 7).orders == all.orders);
-  CHECK(make_arrangements(10, 10, 4000, 8).orders != all.orders);
+  CHECK(make_permutations(10, 10, 4000, 7).orders == all.orders);
+  CHECK(make_permutations(10, 10, 4000, 8).orders != all.orders);
 }
 
 TEST_CASE("false discovery rate: the values of scipy") {
