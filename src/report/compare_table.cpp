@@ -209,6 +209,23 @@ void print_metrics(std::ostream& out, const CompareResult& result) {
   print_section(out, result, MetricSection::kShape);
 }
 
+/// A section for each field besides the potential.
+void print_fields(std::ostream& out, const CompareResult& result) {
+  for (const FieldResult& field : result.fields) {
+    heading(out, "Field " + field.quantity.name, {"trusted area", "all area"});
+    line(out, "Kind", field.quantity.label);
+    for (const Metric& metric : field_metrics(field.quantity)) {
+      if (!metric.has_result()) continue;
+      const std::string label = metric.label;
+      row(out, label.substr(0, label.rfind(", ")), unit_of(metric, ""),
+          {formatted(metric, value_of(metric, result)), formatted(metric, value_over_all_triangles(metric, result))});
+    }
+    if (field.n_missing_source + field.n_missing_target > 0)
+      row(out, "Vertices without a value", "",
+          {"source " + std::to_string(field.n_missing_source), "target " + std::to_string(field.n_missing_target)});
+  }
+}
+
 /// The metrics by distance from the surfaces, unless that is 0 alone.
 void print_offsets(std::ostream& out, const CompareResult& result) {
   if (result.by_offset.empty() || (result.by_offset.size() == 1 && result.by_offset.front().offset_A == 0)) return;
@@ -309,6 +326,11 @@ void print_part(std::ostream& out, const std::string& title, const CompareResult
         row(out, metric.label, unit_of(metric, to_string(part.unit)), {formatted(metric, value_of(metric, part))});
     }
   }
+  for (const FieldResult& field : part.fields) {
+    row(out, "Field " + field.quantity.name, field.quantity.unit,
+        {"mean abs. " + formatted("%.4g", field.metrics.mean_abs_difference),
+         "signed " + formatted("%.4g", field.metrics.mean_signed_difference)});
+  }
   row(out, "Unmatched area", "",
       {"source " + share_of(part.certificate.unmatched_source),
        "target " + share_of(part.certificate.unmatched_target)});
@@ -365,6 +387,7 @@ void print_table(std::ostream& out, const Molecule& source, const Molecule& targ
   print_superposition(out, source, result);
   print_metrics(out, result);
   print_offsets(out, result);
+  print_fields(out, result);
   print_surfaces(out, result);
   print_certificate(out, result);
   if (result.region != nullptr) print_part(out, "Region", *result.region, spelling);
