@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "compare/options.h"
+#include "compare/sample_outside.h"
 #include "compare/trusted_area.h"
 #include "engine/engine.h"
 #include "field/read_field.h"
@@ -69,13 +70,16 @@ void compare_fields(Engine& engine, const std::vector<Field>& fields, const Fiel
   if (fields.empty()) return;
   CompareResult& result = step.result;
   const std::vector<float> untrusted = untrusted_triangles(result.surface);
+  const float isovalue = static_cast<float>(options.surface.isovalue);
+  const double offset_A = options.offsets_A.front();
   const auto place = [&](const FieldsOfSide& side, const MeshPtr& mesh) {
     return FieldPlace{engine,
                       mesh,
+                      moved_outside(engine, mesh, side.atoms, isovalue, offset_A),
                       side.molecule,
                       side.to_common,
                       side.atoms,
-                      static_cast<float>(options.surface.isovalue),
+                      isovalue,
                       options.surface.radius_scale,
                       side.potential};
   };

@@ -18,6 +18,7 @@ namespace espdiff {
 struct FieldPlace {
   Engine& engine;
   MeshPtr mesh;
+  MeshPtr outside;  ///< the mesh moved outward by the distance at which potentials are read; maps are read there
   const Molecule& molecule;
   RigidTransform to_common;  ///< the molecule's own frame -> the common frame
   AtomsPtr atoms;            ///< of the molecule

@@ -10,7 +10,7 @@ std::vector<float> read_field(const StateField& field, const FieldPlace& place) 
   if (field.on_surface) return field.on_surface(place);
   if (field.map != nullptr) {
     const GridPtr map = place.engine.upload_map(*field.map, inverse(place.to_common));
-    return place.engine.download(place.engine.sample(map, place.mesh));
+    return place.engine.download(place.engine.sample(map, place.outside));
   }
   AtomValues atoms;
   atoms.values = field.atoms;

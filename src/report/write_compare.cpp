@@ -102,6 +102,7 @@ SurfaceArrays::SurfaceArrays(const Molecule& source, const CompareResult& result
     file.point_arrays.emplace_back(name + "_target", field.target);
     file.point_arrays.emplace_back(name + "_difference", difference);
     file.texts.emplace_back(name + "_label", field.quantity.label);
+    file.texts.emplace_back(name + "_signed", field.quantity.is_signed ? "1" : "0");
     if (!field.quantity.unit.empty()) file.texts.emplace_back(name + "_unit", field.quantity.unit);
   }
   file.cell_arrays = {{"corrupt", s.corrupt},

@@ -11,6 +11,7 @@
 #include "cuda/surface/back_ends.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
+#include "io/write_grid.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;
@@ -155,6 +156,26 @@ TEST_CASE("atoms without a value leave vertices out, which are counted") {
   CHECK(r.warnings.back().text.plain() ==
         "field half: " + path +
             ": 7 of 12 residues of the target (molecule.pqr) have no value there, the first is TYR 3 of chain A");
+}
+
+TEST_CASE("a map is read as the potential is, at the offset too") {
+  const ScratchFolder folder;
+  const Side source = make_side(1, 0), target = make_side(1, 0.3);
+  const auto dx = [&](const char* name, const Grid& map) {
+    espdiff::write_dx(folder.file(name), map);
+    return folder.file(name);
+  };
+  const std::string from = dx("a.dx", source.map), to = dx("b.dx", target.map);
+  for (const double offset_A : {0.0, 1.4}) {
+    CompareOptions options = with_fields({{"same", "map:" + from + "," + to}});
+    options.offsets_A = {offset_A};
+    const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+    const CompareResult r = compared(*engine, source, target, options);
+    CHECK(r.fields.at(0).metrics.mean_abs_difference ==
+          doctest::Approx(r.metrics.mean_abs_difference).epsilon(offset_A > 0 ? 0.05 : 1e-3));
+    CHECK(r.fields.at(0).metrics.hodgkin_index ==
+          doctest::Approx(r.metrics.hodgkin_index).epsilon(offset_A > 0 ? 0.05 : 1e-3));
+  }
 }
 
 TEST_CASE("a field that only one state has is refused before the work") {
