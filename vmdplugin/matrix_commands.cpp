@@ -61,7 +61,7 @@ std::vector<Variant> load_variants(MatrixObject& object, const Progress& progres
   std::vector<Molecule*> molecules;
   molecules.reserve(variants.size());
   for (Variant& variant : variants) molecules.push_back(&variant.molecule);
-  set_surface_radii(molecules, object.computation.options.input.radii);
+  object.run.radii_note = set_surface_radii(molecules, object.computation.options.input.radii);
   unite_map_units(variants, object.computation.options.temperature_K);
   return variants;
 }

@@ -25,9 +25,9 @@
 namespace espdiff::vmdplugin {
 namespace {
 
-nlohmann::ordered_json json_of(const ComparisonObject& comparison) {
+nlohmann::ordered_json json_of(const ComparisonObject& comparison, const OptionSpelling& spelling = bare_name) {
   return compare_json(*comparison.source.molecule, *comparison.target.molecule, comparison.result,
-                      comparison.computation.options, comparison.provenance);
+                      comparison.computation.options, comparison.provenance, spelling);
 }
 
 nlohmann::ordered_json surface_result(const SurfaceObject& surface) {
@@ -138,8 +138,7 @@ Tcl_Obj* table(const Call& call) {
   }
   const auto comparison = call.handles.finished_comparison(call.text(0));
   std::ostringstream out;
-  print_table(out, *comparison->source.molecule, *comparison->target.molecule, comparison->result,
-              [&](const NamedOption& option) { return spelled(call.interp, option); });
+  print_table(out, json_of(*comparison, [&](const NamedOption& option) { return spelled(call.interp, option); }));
   return to_obj(out.str());
 }
 

@@ -169,7 +169,9 @@ void load_side(TrajectoryObject& object, Endpoint& side, std::optional<int> fram
     }
   }
   load(side, options, is_source ? nullptr : &object.source, progress);
-  if (options.input.radii == RadiiChoice::kElement) set_surface_radii({&*side.molecule}, RadiiChoice::kElement);
+  static const Molecule nothing;
+  const Molecule& source = !is_source && object.source.molecule ? *object.source.molecule : nothing;
+  set_frame_radii(source, *side.molecule, options.input.radii);
 }
 
 /// The inputs of all rows: the one source, and a map of all frames.

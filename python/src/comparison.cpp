@@ -112,11 +112,12 @@ std::string json_text(const Comparison& c) {
 
 std::string table(const Comparison& c) {
   std::ostringstream out;
-  print_table(out, c.source_molecule, c.target_molecule, c.result, [](const NamedOption& option) {
+  const auto spelled = [](const NamedOption& option) {
     std::string name = option.name;
     for (char& letter : name) letter = letter == '-' ? '_' : letter;
     return option.value.empty() ? name : name + "=" + option.value;
-  });
+  };
+  print_table(out, compare_json(c.source_molecule, c.target_molecule, c.result, c.options, c.provenance, spelled));
   return out.str();
 }
 

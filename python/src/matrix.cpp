@@ -93,7 +93,7 @@ std::string compute(const std::vector<StatePtr>& states, const std::vector<std::
     for (std::size_t i = 0; i < states.size(); ++i)
       wholes.push_back(loaded[i].whole.size() > 0 ? &loaded[i].whole : &variants[i].molecule);
     set_parts(variants, wholes, computation.options.input);
-    set_surface_radii(molecules, computation.options.input.radii);
+    order.radii_note = set_surface_radii(molecules, computation.options.input.radii);
     check_labels(labels);
     unite_map_units(variants, computation.options.temperature_K);
     const std::unique_ptr<Engine> engine = computation.make_engine();

@@ -44,7 +44,7 @@ class PySeries {
       LoadedState loaded = load_target(*target, computation_, loaded_, told);
       note_inputs(*target, loaded, "target", inputs);
       const CompareInput side = side_of(*target, loaded, plan_, "target", inputs);
-      set_surface_radii({&loaded.molecule}, computation_.options.input.radii);
+      set_frame_radii(surface_, loaded.molecule, computation_.options.input.radii);
       made->provenance = provenance_of(*engine_, call_, std::move(inputs));
       note_preparation("source", loaded_, made->provenance);
       note_preparation("target", loaded, made->provenance);

@@ -23,8 +23,10 @@ Message& Message::set_next(NextCommand next) {
   return *this;
 }
 
-std::string Message::plain() const {
-  return spelled([](const NamedOption& o) { return o.value.empty() ? o.name : o.name + " " + o.value; });
+std::string Message::plain() const { return spelled(bare_name); }
+
+std::string bare_name(const NamedOption& option) {
+  return option.value.empty() ? option.name : option.name + " " + option.value;
 }
 
 std::string Message::spelled(const OptionSpelling& spelling) const {

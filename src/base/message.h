@@ -17,6 +17,9 @@ struct NamedOption {
 /// How a front end writes an option: the command line `--align none`, Tcl `-align none`, the window by its label.
 using OptionSpelling = std::function<std::string(const NamedOption&)>;
 
+/// As files and other programs get it: "align none".
+std::string bare_name(const NamedOption& option);
+
 /// The one command that most likely helps: the one that was typed, with other options.
 struct NextCommand {
   std::string before;                ///< what stands before it: "apt install X && ", or ""
@@ -43,7 +46,7 @@ class Message {
   /// becomes a part of another one.
   Message& set_next(NextCommand next);
   const NextCommand& next() const { return next_; }
-  /// The text as files and other programs get it: options by their bare names, "align none".
+  /// With bare_name().
   std::string plain() const;
   std::string spelled(const OptionSpelling& spelling) const;
 

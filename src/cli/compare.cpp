@@ -1,6 +1,7 @@
 // compare.cpp: `espdiff compare SOURCE TARGET -o OUT`.
 #include <chrono>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "cli/help.h"
 #include "cli/map_options.h"
@@ -37,7 +38,7 @@ struct CompareArguments {
   MapArguments maps;
   std::string residue_pdb, residue_quantity;
   int source_model = 1, target_model = 1;
-  bool quiet = false, overwrite = false, exit_zero = false, no_trials = false;
+  bool quiet = false, full = false, overwrite = false, exit_zero = false, no_trials = false;
   StructureOptions structure;
   DeviceArguments device;
   GivenSettings settings;
@@ -277,7 +278,12 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   if (a.quiet) {
     print_verdict_line(std::cout, result);
   } else {
-    print_table(std::cout, source_molecule, target_molecule, result, spelled_option);
+    const auto record = compare_json(source_molecule, target_molecule, result, options, provenance, spelled_option);
+    if (a.full) {
+      print_table(std::cout, record);
+    } else {
+      print_answer(std::cout, record, as_typed({"show", a.output}));
+    }
     if (!result.certificate.trustworthy) print_next(a, comparison, *engine, context);
   }
   return verdict_status(result, a.exit_zero);
@@ -304,6 +310,7 @@ Verb add_compare(CLI::App& app) {
   add_settings(*parser, arguments->settings, SettingsFor::kPair);
   add_device_options(*parser, arguments->device);
   parser->add_flag("-q,--quiet", arguments->quiet, "Print the verdict and the main number only");
+  parser->add_flag("--full", arguments->full, "Print every number and the certificate, as `espdiff show OUT` does");
   parser->add_flag("--overwrite", arguments->overwrite, "Replace a result of this name, if there is one");
   parser->add_flag("--exit-zero", arguments->exit_zero, "Exit status 0, not 3, for a result that is NOT TRUSTWORTHY");
   parser->add_flag("--no-trials", arguments->no_trials,
@@ -311,7 +318,7 @@ Verb add_compare(CLI::App& app) {
                    "are tried, and the one that helps is printed");
   set_help(*parser,
            {"--output --overwrite --select --leave-out --ligands --ph --same-protonation --region --region-within --of "
-            "--potential --source-map --target-map --offset --domains --threads --quiet",
+            "--potential --source-map --target-map --offset --domains --threads --full --quiet",
             {"espdiff compare 1t24.pdb 1t2e.pdb --select '//A;polymer' --region-within 5 --of '(NAD,OXQ)' -o ldh",
              "espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result"}});
   return {parser, [arguments](const Context& context) {

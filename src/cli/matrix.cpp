@@ -60,6 +60,7 @@ bool has_maps(const std::vector<VariantFiles>& files) {
 struct States {
   std::vector<Variant> variants;
   PotentialPlan plan;
+  std::string radii_note;  ///< of set_surface_radii()
 };
 
 /// Each structure is read once.
@@ -110,7 +111,7 @@ States read_states(const MatrixArguments& a, const std::vector<VariantFiles>& fi
   for (std::size_t i = 0; i < states.size(); ++i)
     wholes.push_back(states[i].whole.size() > 0 ? &states[i].whole : &all.variants[i].molecule);
   set_parts(all.variants, wholes, options.input);
-  set_surface_radii(molecules, options.input.radii);
+  all.radii_note = set_surface_radii(molecules, options.input.radii);
   unite_map_units(all.variants, options.temperature_K);
   return all;
 }
@@ -171,6 +172,7 @@ int matrix_verb(MatrixArguments& a, const Context& context) {
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   const States states = read_states(a, files, options, *context.progress);
   a.run.potential = states.plan.computes() ? states.plan.in_words() : "maps";
+  a.run.radii_note = states.radii_note;
   const MatrixReport report = compute(a, *engine, states.variants, options, *context.progress);
   context.progress->report("write", 1.0);
   if (!a.quiet) print_report(a, *engine, report);

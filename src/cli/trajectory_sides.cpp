@@ -142,7 +142,7 @@ CompareInput TrajectorySides::frame(int number) {
   target_ = targets().read(number, StateRole::kTarget, plan_);
   CompareInput input{&target_.molecule, target_map_ ? &*target_map_ : nullptr, nullptr, {}};
   if (plan_.computes()) input.make_map = plan_.map_of(target_).maker();
-  set_surface_radii({&target_.molecule}, options_.radii);
+  set_frame_radii(surface_, target_.molecule, options_.radii);
   return input;
 }
 

@@ -42,6 +42,7 @@ Verb add_potential(CLI::App& app);
 Verb add_prepare(CLI::App& app);
 Verb add_render(CLI::App& app);
 Verb add_report(CLI::App& app);
+Verb add_show(CLI::App& app);
 Verb add_view(CLI::App& app);
 Verb add_verify(CLI::App& app);
 Verb add_doctor(CLI::App& app);

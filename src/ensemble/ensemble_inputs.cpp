@@ -265,7 +265,7 @@ CompareInput EnsembleInputs::frame(std::size_t number) {
   } else {
     input.make_map = maker_of(frame_);
   }
-  set_surface_radii({&frame_.molecule}, options_.input.radii);
+  set_frame_radii(template_.molecule, frame_.molecule, options_.input.radii);
   return input;
 }
 

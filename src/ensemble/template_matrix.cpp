@@ -151,7 +151,7 @@ MatrixReport run_template_matrix(Engine& engine, const std::vector<Variant>& var
   if (fs::exists(request.text)) files.read_files.push_back(request.text);
   check_matrix_files(files, variants);
   check_existing(run, fs::exists(path), part_names(options.input));
-  const MatrixPlan plan = make_plan(engine, variants, options, run.potential);
+  const MatrixPlan plan = make_plan(engine, variants, options, run.potential, run.radii_note);
   const Template chosen = choose_template(variants, request, progress);
   const std::vector<MatrixPair> sample = exact_pairs(variants.size(), request.n_exact, run.shard);
   const double share = 1 / (1 + static_cast<double>(sample.size()) / static_cast<double>(variants.size()));

@@ -115,7 +115,8 @@ Grid read_ccp4(const std::string& path, std::string_view bytes) {
   grid.periodic = is_whole && !has_origin;
   check_axes(grid.lattice, path, 0);
   const std::size_t first = kHeaderBytes + static_cast<std::size_t>(std::max(0, n_symmetry_bytes));
-  check_size_promise(grid.lattice.n_points(), width * grid.lattice.n_points(), bytes.size() < first ? 0 : bytes.size() - first, path, 0);
+  check_size_promise(grid.lattice.n_points(), width * grid.lattice.n_points(),
+                     bytes.size() < first ? 0 : bytes.size() - first, path, 0);
   allocate_values(grid);
   std::array<std::size_t, 3> at{};  // column, row, section
   const std::size_t columns = static_cast<std::size_t>(n[0]), rows = static_cast<std::size_t>(n[1]);

@@ -30,7 +30,7 @@ std::string sha256_in(const MatrixPlan::Item& item, const std::string& role) {
 std::vector<std::string> MatrixPlan::parts() const { return part_names(settings); }
 
 MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
-                     const std::string& potential) {
+                     const std::string& potential, const std::string& radii_note) {
   constexpr std::size_t kMaxVariants = 10000;
   if (variants.size() < 2 || variants.size() > kMaxVariants)
     throw InputError("a matrix of " + std::to_string(variants.size()) + " variant" + (variants.size() == 1 ? "" : "s") +
@@ -40,6 +40,7 @@ MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants,
   plan.version = kVersion;
   plan.device = engine.back_end();
   plan.settings = setting_texts(options);
+  plan.radii_note = radii_note;
   if (variants.front().has_potential()) {
     plan.potential = potential;
     plan.potential_unit = to_string(variants.front().map ? variants.front().map->unit : PotentialUnit::kKtPerE);
@@ -64,6 +65,7 @@ Json plan_json(const MatrixPlan& plan) {
   json["device"] = plan.device;
   json["potential"] = plan.potential;
   json["potential_unit"] = plan.potential_unit;
+  json["radii_note"] = plan.radii_note;
   json["settings"] = Json::object();
   for (const auto& [name, value] : plan.settings) json["settings"][name] = value;
   json["variants"] = Json::array();
@@ -83,6 +85,7 @@ MatrixPlan parse_plan(const std::string& text) {
   json.at("device").get_to(plan.device);
   json.at("potential").get_to(plan.potential);
   json.at("potential_unit").get_to(plan.potential_unit);
+  plan.radii_note = json.value("radii_note", "");
   for (const auto& [name, value] : json.at("settings").items()) plan.settings.emplace_back(name, value);
   for (const Json& item : json.at("variants")) {
     MatrixPlan::Item variant{item.at("label"), item.at("group"), {}};

@@ -21,16 +21,18 @@ struct MatrixPlan {
   std::vector<std::pair<std::string, std::string>> settings;  ///< all settings by name
   std::string potential;                                      ///< origin of the potentials; empty for none
   std::string potential_unit;                                 ///< empty for none
+  std::string radii_note;                                     ///< why all radii were replaced; may be empty
   std::vector<Item> variants;
 
   /// Region and patches of the pairs, by the settings; see part_names(). @throws InputError (damaged settings)
   std::vector<std::string> parts() const;
 };
 
-/// @param potential description: "maps", or "pme, grid 0.5, Ewald factor 0.25"; ignored if no variant has a map
+/// @param potential  description: "maps", or "pme, grid 0.5, Ewald factor 0.25"; ignored if no variant has a map
+/// @param radii_note of set_surface_radii()
 /// @throws InputError (fewer than two variants, labels, too many)
 MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
-                     const std::string& potential);
+                     const std::string& potential, const std::string& radii_note);
 
 nlohmann::ordered_json plan_json(const MatrixPlan& plan);
 /// @throws nlohmann::json::exception if the text is not a plan

@@ -143,7 +143,7 @@ MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, co
     throw InputError(option("offset") +
                      ": a list of distances was given, and a matrix has one value of a metric for a pair; give one");
   refuse_causes(options, "a matrix");
-  const MatrixPlan plan = make_plan(engine, variants, options, run.potential);
+  const MatrixPlan plan = make_plan(engine, variants, options, run.potential, run.radii_note);
   MatrixReport report;
   const std::vector<MatrixCell> cells = compute_and_keep(engine, variants, options, run, plan,
                                                          matrix_pairs(variants.size(), run.shard), progress, report);

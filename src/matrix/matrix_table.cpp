@@ -107,6 +107,7 @@ void print_matrix(std::ostream& out, const Matrix& matrix, std::size_t metric) {
     out << formatted("\nthrough one template: %s, %zu vertices, %.1f A2; pairs have %.1f %% of it (least %.1f %%)",
                      matrix.through->name.c_str(), matrix.through->n_vertices, matrix.through->area_A2,
                      100 * matrix.through->mean_area_fraction, 100 * matrix.through->least_area_fraction);
+  if (!matrix.plan.radii_note.empty()) out << "\n" << matrix.plan.radii_note;
   out << "\n\n"
       << padded("Over all pairs", label_width(matrix) + 13) << right("least", 11) << right("mean", 11)
       << right("greatest", 11) << right("asymmetry", 12) << '\n';

@@ -153,7 +153,7 @@ void write_table(std::ostream& out, const Matrix& matrix) {
 Json matrix_json(const Matrix& matrix, std::size_t metric) {
   Json json{{"format", kMatrixFormat}, {"format_version", kFormatVersion}};
   const Json plan = plan_json(matrix.plan);
-  for (const char* key : {"version", "device", "potential", "potential_unit"}) json[key] = plan[key];
+  for (const char* key : {"version", "device", "potential", "potential_unit", "radii_note"}) json[key] = plan[key];
   json["options"] = options_json(matrix.plan.settings);
   json["variants"] = plan["variants"];
   if (matrix.through) json["template"] = through_template_json(matrix);

@@ -45,6 +45,17 @@ void take_element_radii(Molecule& molecule) {
 
 }  // namespace
 
+void set_frame_radii(const Molecule& source, Molecule& frame, RadiiChoice choice) {
+  set_surface_radii({&frame}, choice);
+  if (choice != RadiiChoice::kAuto || source.size() == 0) return;
+  const bool same_origin = frame.radii_origin == source.radii_origin;
+  if (same_origin && (source.radii_origin != ValueOrigin::kFile || have_one_force_field(source, frame))) return;
+  throw InputError(frame.name + ": its radii are not of the kind that " + source.name + " has (" +
+                   (same_origin ? "another force field" : "only one of them has radii of its own") +
+                   "), so that their surfaces differ everywhere; " + option("radii", "element") +
+                   " gives both Bondi's");
+}
+
 std::string set_surface_radii(const std::vector<Molecule*>& molecules, RadiiChoice choice) {
   if (choice == RadiiChoice::kFile) {
     for (const Molecule* molecule : molecules) {
@@ -70,7 +81,7 @@ std::string set_surface_radii(const std::vector<Molecule*>& molecules, RadiiChoi
   }
   if (why.empty()) return {};
   for (Molecule* molecule : molecules) take_element_radii(*molecule);
-  return why + "; both surfaces take Bondi's radii by element";
+  return why + "; all surfaces take Bondi's radii by element";
 }
 
 }  // namespace espdiff

@@ -16,4 +16,9 @@ namespace espdiff {
 /// @throws InputError (kFile, and a molecule has no radii from a file)
 std::string set_surface_radii(const std::vector<Molecule*>& molecules, RadiiChoice choice);
 
+/// Sets the radii of a frame that is compared with a source whose surface is made already.
+/// @param source after set_surface_radii(); without atoms nothing is compared with it yet
+/// @throws InputError (kAuto, and the frame's radii are not of the source's origin and force field)
+void set_frame_radii(const Molecule& source, Molecule& frame, RadiiChoice choice);
+
 }  // namespace espdiff

@@ -134,16 +134,6 @@ std::string certainty_in_words(const Causes& causes, const CausesOfReading& read
   return text;
 }
 
-std::vector<std::string> causes_lines(const Causes& causes, const CausesOfReading& reading, const std::string& unit) {
-  std::vector<std::string> lines{causes_in_words(causes, reading, unit), certainty_in_words(causes, reading, unit)};
-  if (reading.placements) lines.push_back(placements_in_words(causes, reading, unit));
-  if (!reading.scan.empty()) lines.push_back(scan_in_words(causes, reading, unit));
-  lines.push_back("check: the contributions add up to " + formatted("%.5g", reading.sum_of_source) + " and " +
-                  formatted("%.5g", reading.sum_of_target) + ", the potentials there are " +
-                  formatted("%.5g", reading.source) + " and " + formatted("%.5g", reading.target) + " " + unit);
-  return lines;
-}
-
 nlohmann::ordered_json causes_json(const Causes& causes, const std::string& unit) {
   constexpr std::size_t kMostResidues = 30;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
@@ -169,8 +159,14 @@ nlohmann::ordered_json causes_json(const Causes& causes, const std::string& unit
     json["largest"] = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < reading.contributions.size() && i < kMostResidues; ++i)
       json["largest"].push_back(contribution_json(causes, reading.contributions[i]));
-    if (reading.placements) json["side_chains"] = placements_json(causes, reading);
-    if (!reading.scan.empty()) json["scan"] = scan_json(causes, reading);
+    if (reading.placements) {
+      json["side_chains"] = placements_json(causes, reading);
+      json["side_chains"]["in_words"] = placements_in_words(causes, reading, unit);
+    }
+    if (!reading.scan.empty()) {
+      json["scan"] = scan_json(causes, reading);
+      json["scan"]["in_words"] = scan_in_words(causes, reading, unit);
+    }
     all.push_back(std::move(json));
   }
   return all;

@@ -18,9 +18,6 @@ struct CompareResult;
 std::string causes_in_words(const Causes& causes, const CausesOfReading& reading, const std::string& unit);
 /// How much of the difference residues make whose place the structure files know poorly, and which.
 std::string certainty_in_words(const Causes& causes, const CausesOfReading& reading, const std::string& unit);
-/// Lines of the printed table: for each reading the two sentences, and the contributions' sum against the reading.
-std::vector<std::string> causes_lines(const Causes& causes, const CausesOfReading& reading, const std::string& unit);
-
 /// OUT.json's `causes`: an entry for each reading.
 nlohmann::ordered_json causes_json(const Causes& causes, const std::string& unit);
 /// OUT.causes.csv: for each reading each residue of either state, the largest difference first.

@@ -80,14 +80,14 @@ Json fields_json(const CompareResult& result, const std::string& part) {
   return json;
 }
 
-Json warnings(const CompareResult& result) {
+Json warnings(const CompareResult& result, const OptionSpelling& spelling) {
   Json json = Json::array();
   for (const Warning& warning : result.warnings)
-    json.push_back({{"text", warning.text.plain()}, {"refuses", warning.refuses}});
+    json.push_back({{"text", warning.text.spelled(spelling)}, {"refuses", warning.refuses}});
   return json;
 }
 
-void add_verdict(Json& json, const Certificate& c) {
+void add_verdict(Json& json, const Certificate& c, const OptionSpelling& spelling) {
   json["zero_by_construction"] = Json::array();
   for (const Metric& metric : metrics()) {
     if (c.zero_by_construction && (metric.flags & kRemovable) != 0) json["zero_by_construction"].push_back(metric.name);
@@ -97,7 +97,7 @@ void add_verdict(Json& json, const Certificate& c) {
   json["untrusted_parts"] = c.untrusted_parts;
   json["trustworthy"] = c.trustworthy;
   json["reasons"] = Json::array();
-  for (const Message& reason : c.reasons) json["reasons"].push_back(reason.plain());
+  for (const Message& reason : c.reasons) json["reasons"].push_back(reason.spelled(spelling));
   json["not_checked"] = c.not_checked;
 }
 
@@ -234,7 +234,7 @@ Json chains(const CompareResult& result) {
 }
 
 /// A region's or patch's metrics and certificate, under the names of the whole's.
-Json part_json(const CompareResult& part, const std::string& name) {
+Json part_json(const CompareResult& part, const std::string& name, const OptionSpelling& spelling) {
   Json json;
   json["n_residues"] = part.residues.size();
   json["residues"] = Json::array();
@@ -250,7 +250,7 @@ Json part_json(const CompareResult& part, const std::string& name) {
     json["by_offset"].push_back(std::move(entry));
   }
   json["n_vertices_outside_map"] = {{"source", part.n_outside_source_map}, {"target", part.n_outside_target_map}};
-  add_verdict(json["certificate"], part.certificate);
+  add_verdict(json["certificate"], part.certificate, spelling);
   return json;
 }
 
@@ -260,24 +260,33 @@ Json preparations(const Provenance& provenance) {
   return json;
 }
 
-void add_results(Json& json, const Molecule& source, const CompareResult& result) {
+/// What is said of how the states were read and prepared.
+Json notes(const CompareResult& result) {
+  Json json = Json::array();
+  for (const auto& [label, text] : result.input_lines) json.push_back({{"label", label}, {"text", text}});
+  return json;
+}
+
+void add_results(Json& json, const Molecule& source, const CompareResult& result, const OptionSpelling& spelling) {
   json["n_paired_atoms"] = result.pairing.pairs.size();
   json["potential_unit"] = result.has_potential ? Json(potential_unit_text(result)) : Json(nullptr);
   json["potential"] = potential_json(result);
+  json["shapes_because"] = result.shapes_because.empty() ? Json(nullptr) : Json(result.shapes_because);
   json["given_maps"] = given_maps_json(result);
   add_metrics(json, result);
   json["by_offset"] = offsets(result);
-  json["warnings"] = warnings(result);
-  add_verdict(json["certificate"], result.certificate);
+  json["notes"] = notes(result);
+  json["warnings"] = warnings(result, spelling);
+  add_verdict(json["certificate"], result.certificate, spelling);
   json["metrics_all_triangles"] = metrics_all_triangles(result);
   const WholeSurface whole = whole_surface(result);
   json["whole_surface"] = {
       {"mean_abs_difference", {{"estimate", json_number(whole.estimate)}, {"at_most", json_number(whole.at_most)}}}};
   json["fields"] = fields_json(result, "");
-  json["region"] = result.region == nullptr ? Json(nullptr) : part_json(*result.region, kRegionPart);
+  json["region"] = result.region == nullptr ? Json(nullptr) : part_json(*result.region, kRegionPart, spelling);
   json["fixed_patches"] = Json::object();
   for (const PatchResult& patch : result.patches) {
-    Json& entry = json["fixed_patches"][patch.name] = part_json(*patch.result, patch.name);
+    Json& entry = json["fixed_patches"][patch.name] = part_json(*patch.result, patch.name, spelling);
     if (patch.placement != nullptr) entry["placement"] = placement_json(*patch.placement);
   }
   json["causes"] = result.causes == nullptr ? Json::array() : causes_json(*result.causes, potential_unit_text(result));
@@ -317,11 +326,12 @@ Json options_json(const std::vector<std::pair<std::string, std::string>>& texts)
 }
 
 Json compare_json(const Molecule& source, const Molecule& target, const CompareResult& result,
-                  const CompareOptions& options, const Provenance& provenance) {
+                  const CompareOptions& options, const Provenance& provenance, const OptionSpelling& spelling) {
   Json json;
   json["format"] = kComparisonFormat;
   json["format_version"] = kFormatVersion;
-  add_results(json, source, result);
+  json["names"] = {{"source", source.name}, {"target", target.name}};
+  add_results(json, source, result, spelling);
   json["time_ms"] = Json::object();
   for (const auto& [stage, ms] : result.time_ms) json["time_ms"][stage] = json_number(ms);
   json["device"] = provenance.device;

@@ -1,75 +1,22 @@
-// compare_table.cpp: a comparison's result as a table for a terminal.
+// compare_table.cpp: a comparison's record as a table for a terminal, with every number.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <sstream>
 
-#include "align/chain_motions.h"
-#include "align/compared_chains.h"
-#include "align/rigid_domains.h"
 #include "base/formatted.h"
-#include "causes/causes.h"
-#include "compare/map_check.h"
-#include "compare/result.h"
+#include "compare/map_recipe.h"
+#include "compare/options.h"
 #include "compare/short_numbers.h"
-#include "report/causes_report.h"
+#include "compare/trusted_area.h"
 #include "report/metrics.h"
-#include "report/placement.h"
-#include "report/potential_json.h"
-#include "report/state_report.h"
+#include "report/record.h"
+#include "report/record_words.h"
+#include "report/text_lines.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
 namespace {
 
-constexpr std::size_t kLabelWidth = 35, kUnitWidth = 7, kColumnWidth = 14;
-
-std::string counted(std::size_t n, const std::string& noun, const std::string& plural) {
-  return std::to_string(n) + " " + (n == 1 ? noun : plural);
-}
-std::string counted(std::size_t n, const std::string& noun) { return counted(n, noun, noun + "s"); }
-
-std::string left(const std::string& text, std::size_t width) {
-  return text + std::string(text.size() < width ? width - text.size() : 1, ' ');
-}
-
-std::string right(const std::string& text, std::size_t width) {
-  return std::string(text.size() < width ? width - text.size() : 1, ' ') + text;
-}
-
-/// A line of numbers: label, unit, and one column for each value.
-void row(std::ostream& out, const std::string& label, const std::string& unit, const std::vector<std::string>& values) {
-  out << left("  " + label, kLabelWidth) << left(unit, kUnitWidth);
-  for (const std::string& value : values) out << right(value, kColumnWidth);
-  out << '\n';
-}
-
-/// "  - TEXT", its further lines indented like the first.
-void item(std::ostream& out, const std::string& text, std::size_t indent = 2) {
-  constexpr std::size_t kTextWidth = 100;
-  std::string current = std::string(indent, ' ') + "-";
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (current.size() + 1 + word.size() > kTextWidth && current.size() > indent + 1) {
-      out << current << '\n';
-      current = std::string(indent + 1, ' ');
-    }
-    current += " " + word;
-  }
-  out << current << '\n';
-}
-
-/// A heading over such lines.
-void heading(std::ostream& out, const std::string& title, const std::vector<std::string>& columns) {
-  out << '\n' << left(title, kLabelWidth + kUnitWidth);
-  for (const std::string& column : columns) out << right(column, kColumnWidth);
-  out << '\n';
-}
-
-/// A line in words.
-void line(std::ostream& out, const std::string& label, const std::string& text) {
-  out << left("  " + label, kLabelWidth) << text << '\n';
-}
+using Json = Record::Json;
 
 /// "1.234 A"
 std::string with_unit(const Metric& metric, double value) {
@@ -77,62 +24,44 @@ std::string with_unit(const Metric& metric, double value) {
   return formatted(metric, value) + (unit.empty() ? "" : " " + unit);
 }
 
-/// Which chains were compared, unless there is one of one name; and copies, of which one may be meant.
-void print_chains(std::ostream& out, const CompareResult& result) {
-  const bool one = result.chains.size() == 1 && result.chains[0].source == result.chains[0].target;
-  if (!one && !result.chains.empty()) line(out, "Chains", in_words(result.chains));
-  if (!result.chain_motions.empty()) line(out, "Against the others", in_words(result.chain_motions));
-  for (const auto& [label, copies] : {std::pair("Copies in the source", &result.source_copies),
-                                      std::pair("Copies in the target", &result.target_copies)}) {
-    for (const auto& group : *copies) {
-      std::string names;
-      for (const std::string& name : group) names += (names.empty() ? "" : ", ") + name;
-      line(out, label, "chains " + names + " repeat one sequence");
-    }
-  }
-}
-
-void print_superposition(std::ostream& out, const Molecule& source, const CompareResult& result) {
-  const AtomPairing& pairing = result.pairing;
+void print_superposition(std::ostream& out, const Record& record) {
   out << "Superposition\n";
-  if (pairing.pairs.empty()) {
-    line(out, "Paired atoms", "none; compared where they lie");
+  const std::size_t n_paired = record.count("/n_paired_atoms");
+  if (n_paired == 0) {
+    print_line(out, "Paired atoms", "none; compared where they lie");
     return;
   }
-  std::string paired = counted(pairing.pairs.size(), "atom") + ", by " + pairing.method;
-  if (pairing.n_substituted_residues > 0) {
-    paired += " (" + std::to_string(pairing.n_substituted_residues) + " of " +
-              counted(pairing.n_aligned_residues, "residue") + " substituted)";
-  }
-  line(out, "Paired atoms", paired);
-  const std::string over = result.n_superposed_atoms > 0
-                               ? "after superposing " + counted(result.n_superposed_atoms, "atom")
-                               : std::string("where they lie, not superposed");
+  print_line(out, "Paired atoms", paired_in_words(record));
+  const std::size_t n_superposed = record.count("/superposition/n_superposed_atoms");
+  const std::string over = n_superposed > 0 ? "after superposing " + counted(n_superposed, "atom")
+                                            : std::string("where they lie, not superposed");
   for (const Metric& metric : metrics()) {
     if (metric.section != MetricSection::kSuperposition) continue;
-    line(out, metric.label, with_unit(metric, value_of(metric, result)) + " " + over);
+    print_line(out, metric.label, with_unit(metric, record.value_of(metric)) + " " + over);
   }
-  print_chains(out, result);
-  for (const RigidDomain& domain : result.domains) {
-    line(out, "Rigid domain", formatted("%.4g", domain.rmsd_A) + " A, " + residue_ranges(source, domain.residues));
+  for (const auto& [label, text] : chains_in_words(record)) print_line(out, label, text);
+  for (const Json& domain : record.at("/superposition/domains")) {
+    const Record r(domain);
+    print_line(out, "Rigid domain", formatted("%.4g", r.number("/rmsd_A")) + " A, " + r.text("/residues"));
   }
-  for (const auto& [label, text] : result.input_lines) line(out, label, text);
+  for (const Json& note : record.at("/notes")) print_line(out, Record(note).text("/label"), Record(note).text("/text"));
 }
 
 /// A row for each metric of the section: over the area that is counted and, with potentials, over all of it.
-void print_section(std::ostream& out, const CompareResult& result, MetricSection section) {
+void print_section(std::ostream& out, const Record& record, MetricSection section) {
   for (const Metric& metric : metrics()) {
     if (metric.section != section || !metric.has_result()) continue;
-    std::vector<std::string> values = {formatted(metric, value_of(metric, result))};
-    if (result.has_potential && metric.source.of_area != nullptr)
-      values.push_back(formatted(metric, value_over_all_triangles(metric, result)));
-    row(out, metric.label, unit_of(metric, to_string(result.unit)), values);
+    std::vector<std::string> values = {formatted(metric, record.value_of(metric))};
+    if (record.has_potential() && metric.source.of_area != nullptr)
+      values.push_back(formatted(metric, record.value_over_all_triangles(metric)));
+    print_row(out, metric.label, unit_of(metric, record.potential_unit()), values);
   }
 }
 
 /// The metrics that share a line follow one another.
-void print_lines(std::ostream& out, const CompareResult& result, MetricSection section) {
+void print_lines(std::ostream& out, const Record& record, MetricSection section) {
   const std::vector<Metric>& all = metrics();
+  const std::vector<std::string> constructed = record.texts("/certificate/zero_by_construction");
   for (std::size_t i = 0; i < all.size();) {
     const Metric& first = all[i];
     std::vector<std::string> values;
@@ -142,131 +71,141 @@ void print_lines(std::ostream& out, const CompareResult& result, MetricSection s
     };
     do {
       const std::string word = *all[i].word != '\0' ? std::string(all[i].word) + " " : std::string();
-      if (all[i].has_result()) values.push_back(word + formatted(all[i], value_of(all[i], result)));
+      if (all[i].has_result()) values.push_back(word + formatted(all[i], record.value_of(all[i])));
       ++i;
     } while (shares_line());
-    if (first.section != section || is_unchecked(first, result)) continue;
+    if (first.section != section || record.is_unchecked(first)) continue;
     // Such a line is no evidence, so the reader must know.
-    if (result.certificate.zero_by_construction && (first.flags & kRemovable) != 0)
+    if (std::find(constructed.begin(), constructed.end(), first.name) != constructed.end())
       values.emplace_back(" by construction, see Removed");
-    row(out, *first.line != '\0' ? first.line : first.label, unit_of(first, to_string(result.unit)), values);
+    print_row(out, *first.line != '\0' ? first.line : first.label, unit_of(first, record.potential_unit()), values);
   }
+}
+
+/// How the map of a side was computed; null for given ones.
+const Json* computed_map(const Record& record, const std::string& side) {
+  for (const Json& input : record.at("/inputs")) {
+    if (Record(input).text("/role") == side + "_map" && input.contains("computed")) return &input.at("computed");
+  }
+  return nullptr;
 }
 
 /// Which potential it is that differs, and what to know of it.
-void print_kind_of_potential(std::ostream& out, const CompareResult& result) {
-  const auto &source = result.source_recipe, &target = result.target_recipe;
-  if (!source && !target) return;
-  const std::string label = potential_label(result);
-  const std::string because = source ? source->because : target->because;
+void print_kind_of_potential(std::ostream& out, const Record& record) {
+  if (!record.has("/potential")) return;
   out << "\nComputed potential\n";
-  line(out, "Kind", label + (because.empty() ? "" : " (" + because + ")"));
-  for (const auto& [side, recipe] : {std::pair("Of the source", &source), std::pair("Of the target", &target)}) {
-    if (!*recipe) continue;
-    const MapRecipe& r = **recipe;
-    std::string text =
-        formatted("%.4g", r.net_charge) + " e in " + counted(r.n_charges, "charge") + "; zero " + to_string(r.zero);
-    if (r.method == PotentialMethod::kPoissonBoltzmann)
-      text += "; residual " + formatted("%.1e", r.pb_report.relative_residual) + " after " +
-              counted(static_cast<std::size_t>(std::max(r.pb_report.cycles, 0)), "cycle");
-    line(out, side, text);
+  print_line(out, "Kind", potential_in_words(record));
+  for (const std::string side : {"source", "target"}) {
+    const Json* const computed = computed_map(record, side);
+    if (computed == nullptr) continue;
+    const Record r(*computed);
+    std::string text = formatted("%.4g", r.number("/net_charge")) + " e in " +
+                       counted(r.count("/n_charges"), "charge") + "; zero " + r.text("/zero");
+    if (r.has("/relative_residual"))
+      text += "; residual " + formatted("%.1e", r.number("/relative_residual")) + " after " +
+              counted(r.count("/cycles"), "cycle");
+    print_line(out, "Of the " + side, text);
   }
-  for (const std::string& note : potential_notes(source ? &*source : nullptr, target ? &*target : nullptr))
-    line(out, "Note", note);
+  for (const std::string& note : record.texts("/potential/notes")) print_line(out, "Note", note);
 }
 
 /// How given maps compare with the potentials of the molecules' charges.
-void print_given_maps(std::ostream& out, const CompareResult& result) {
-  if (!result.source_map_check && !result.target_map_check) return;
+void print_given_maps(std::ostream& out, const Record& record) {
+  if (!record.has("/given_maps/source") && !record.has("/given_maps/target")) return;
   out << "\nGiven maps, against the potentials of the charges\n";
-  for (const auto& [side, check] :
-       {std::pair("Of the source", &result.source_map_check), std::pair("Of the target", &result.target_map_check)}) {
-    if (!*check) continue;
-    const ReferenceFit& fit = (*check)->best();
-    line(out, side,
-         std::string("as in ") + to_string((*check)->kind) + ": slope " + formatted("%.3g", fit.slope) +
-             ", correlation " + number_beside(fit.correlation, 1, 3) + " at " + counted((*check)->n_points, "point"));
+  for (const std::string side : {"source", "target"}) {
+    if (!record.has("/given_maps/" + side)) continue;
+    const Record check(record.at("/given_maps/" + side));
+    print_line(out, "Of the " + side,
+               "as in " + check.text("/kind") + ": slope " + formatted("%.3g", check.number("/slope")) +
+                   ", correlation " + number_beside(check.number("/correlation"), 1, 3) + " at " +
+                   counted(check.count("/n_points"), "point"));
   }
 }
 
-void print_metrics(std::ostream& out, const CompareResult& result) {
-  if (result.has_potential) {
-    print_kind_of_potential(out, result);
-    print_given_maps(out, result);
-    const bool vacuum = potential_unit_text(result) != to_string(result.unit);
-    heading(out, std::string("Potential") + (vacuum ? kInVacuum : "") + " (target - source)",
-            {"trusted area", "all area"});
-    print_section(out, result, MetricSection::kPotential);
-    const WholeSurface whole = whole_surface(result);
-    const Metric& mean = *find_metric_or_null("mean_abs_difference");
-    line(out, "Mean abs. of the whole surface",
-         "about " + formatted(mean, whole.estimate) + ", at most " + formatted(mean, whole.at_most) + " " +
-             to_string(result.unit));
+void print_metrics(std::ostream& out, const Record& record) {
+  if (record.has_potential()) {
+    print_kind_of_potential(out, record);
+    print_given_maps(out, record);
+    const bool vacuum = is_in_vacuum(record.text("/potential_unit"));
+    print_heading(out, std::string("Potential") + (vacuum ? kInVacuum : "") + " (target - source)",
+                  {"trusted area", "all area"});
+    print_section(out, record, MetricSection::kPotential);
+    print_line(out, "Mean abs. of the whole surface", whole_surface_in_words(record));
   } else {
-    heading(out, "Shape (no potentials)", {"trusted area"});
-    if (!result.shapes_because.empty()) line(out, "Because", result.shapes_because);
+    print_heading(out, "Shape (no potentials)", {"trusted area"});
+    if (record.has("/shapes_because")) print_line(out, "Because", record.text("/shapes_because"));
   }
-  print_section(out, result, MetricSection::kShape);
+  print_section(out, record, MetricSection::kShape);
 }
 
 /// A section for each field besides the potential.
-void print_fields(std::ostream& out, const CompareResult& result) {
-  for (const FieldResult& field : result.fields) {
-    heading(out, "Field " + field.quantity.name, {"trusted area", "all area"});
-    line(out, "Kind", field.quantity.label);
-    for (const Metric& metric : field_metrics(field.quantity)) {
+void print_fields(std::ostream& out, const Record& record) {
+  for (const auto& [name, json] : record.at("/fields").items()) {
+    const Record field(json);
+    const Quantity quantity{name, field.text("/label"), field.text("/unit"), field.at("/signed").get<bool>()};
+    print_heading(out, "Field " + name, {"trusted area", "all area"});
+    print_line(out, "Kind", quantity.label);
+    for (const Metric& metric : field_metrics(quantity)) {
       if (!metric.has_result()) continue;
-      const std::string label = metric.label;
-      row(out, label.substr(0, label.rfind(", ")), unit_of(metric, ""),
-          {formatted(metric, value_of(metric, result)), formatted(metric, value_over_all_triangles(metric, result))});
+      const std::string label = metric.label, key = Json::json_pointer(metric.json_pointer()).back();
+      print_row(out, label.substr(0, label.rfind(", ")), unit_of(metric, ""),
+                {formatted(metric, field.number("/" + key)),
+                 formatted(metric, field.number("/metrics_all_triangles/" + key))});
     }
-    if (field.n_missing_source + field.n_missing_target > 0)
-      row(out, "Vertices without a value", "",
-          {"source " + std::to_string(field.n_missing_source), "target " + std::to_string(field.n_missing_target)});
+    const std::size_t n_source = field.count("/n_vertices_without_value/source"),
+                      n_target = field.count("/n_vertices_without_value/target");
+    if (n_source + n_target > 0)
+      print_row(out, "Vertices without a value", "",
+                {"source " + std::to_string(n_source), "target " + std::to_string(n_target)});
   }
 }
 
 /// The metrics by distance from the surfaces, unless that is 0 alone.
-void print_offsets(std::ostream& out, const CompareResult& result) {
-  if (result.by_offset.empty() || (result.by_offset.size() == 1 && result.by_offset.front().offset_A == 0)) return;
+void print_offsets(std::ostream& out, const Record& record) {
+  const Json& offsets = record.at("/by_offset");
+  if (offsets.empty() || (offsets.size() == 1 && Record(offsets.front()).number("/offset_A") == 0)) return;
   std::vector<std::string> columns, inside, outside;
-  for (const OffsetMetrics& at : result.by_offset) {
-    columns.push_back(formatted("%.3g", at.offset_A) + " A");
-    inside.push_back(std::to_string(at.n_inside_source + at.n_inside_target));
-    outside.push_back(std::to_string(at.n_outside_source_map + at.n_outside_target_map));
+  for (const Json& at : offsets) {
+    const Record r(at);
+    const auto both = [&](const std::string& name) {
+      return std::to_string(r.count("/" + name + "/source") + r.count("/" + name + "/target"));
+    };
+    columns.push_back(formatted("%.3g", r.number("/offset_A")) + " A");
+    inside.push_back(both("n_vertices_inside"));
+    outside.push_back(both("n_vertices_outside_map"));
   }
-  heading(out, "Read outside the surfaces by", columns);
+  print_heading(out, "Read outside the surfaces by", columns);
   for (const Metric& metric : metrics()) {
     const bool depends = metric.section == MetricSection::kPotential || metric.unit == MetricUnit::kSquareAngstrom;
     if (!depends || metric.source.of_area == nullptr) continue;
     std::vector<std::string> values;
-    for (const OffsetMetrics& at : result.by_offset)
-      values.push_back(formatted(metric, at.metrics.*metric.source.of_area));
-    row(out, metric.label, unit_of(metric, to_string(result.unit)), values);
+    for (const Json& at : offsets)
+      values.push_back(formatted(metric, Record(at).number(std::string("/") + metric.name)));
+    print_row(out, metric.label, unit_of(metric, record.potential_unit()), values);
   }
-  row(out, "Vertices inside, left out", "", inside);
-  row(out, "Vertices outside the maps", "", outside);
+  print_row(out, "Vertices inside, left out", "", inside);
+  print_row(out, "Vertices outside the maps", "", outside);
 }
 
-void print_surfaces(std::ostream& out, const CompareResult& result) {
-  const SurfaceSummary &source = result.source_surface, &target = result.target_surface;
+void print_surfaces(std::ostream& out, const Record& record) {
   out << "\nSurface\n";
-  print_lines(out, result, MetricSection::kSurface);
-  const auto counts = [&](const char* label, std::size_t of_source, std::size_t of_target) {
-    row(out, label, "", {"source " + std::to_string(of_source), "target " + std::to_string(of_target)});
+  print_lines(out, record, MetricSection::kSurface);
+  const auto number = [&](const std::string& side, const std::string& pointer) {
+    return side + " " + std::to_string(record.count(pointer));
   };
-  row(out, "Vertices", "",
-      {"source " + std::to_string(source.n_vertices), "target " + std::to_string(target.n_vertices),
-       "mapped " + std::to_string(result.surface.positions.size())});
-  counts("Components", source.n_components, target.n_components);
-  counts("Closed cavities left out", source.n_cavities_left_out, target.n_cavities_left_out);
-  if (result.has_potential)
-    counts("Vertices outside the map", result.n_outside_source_map, result.n_outside_target_map);
-}
-
-/// "12.3 %", "-" for none.
-std::string share_of(double fraction) {
-  return std::isfinite(fraction) ? formatted("%.3g", 100 * fraction) + " %" : "-";
+  const auto counts = [&](const char* label, const std::string& name) {
+    print_row(out, label, "",
+              {number("source", "/surfaces/source/" + name), number("target", "/surfaces/target/" + name)});
+  };
+  print_row(out, "Vertices", "",
+            {number("source", "/surfaces/source/n_vertices"), number("target", "/surfaces/target/n_vertices"),
+             number("mapped", "/n_vertices")});
+  counts("Components", "n_components");
+  counts("Closed cavities left out", "n_cavities_left_out");
+  if (record.has_potential())
+    print_row(out, "Vertices outside the map", "",
+              {number("source", "/n_vertices_outside_map/source"), number("target", "/n_vertices_outside_map/target")});
 }
 
 /// What a mapping followed.
@@ -274,138 +213,118 @@ std::string words_of_motions(const std::string& domains) {
   return domains == kLocalMotions ? "local motions" : "the superposition of the whole";
 }
 
-void print_mapping(std::ostream& out, const CompareResult& result) {
-  const Certificate& c = result.certificate;
-  const auto n_of = [](int n) { return static_cast<std::size_t>(std::max(n, 0)); };
-  if (result.morph_report.steps > 0) {
-    line(out, "Mapping",
-         "carried by the atoms in " + counted(n_of(result.morph_report.steps), "step") + ", " +
-             counted(result.morph_report.n_vertices_added, "vertex", "vertices") + " added");
+void print_mapping(std::ostream& out, const Record& record) {
+  const std::size_t iterations = record.count("/iterations"), added = record.count("/n_vertices_added");
+  if (record.text("/options/method") == to_string(Method::kMorph)) {
+    print_line(out, "Mapping",
+               "carried by the atoms in " + counted(iterations, "step") + ", " + counted(added, "vertex", "vertices") +
+                   " added");
   } else {
-    line(out, "Mapping",
-         std::string(c.converged ? "converged after " : "did not converge in ") +
-             counted(n_of(result.deform_report.iterations), "iteration") +
-             (result.n_vertices_subdivided > 0
-                  ? ", " + counted(result.n_vertices_subdivided, "vertex", "vertices") + " added"
-                  : ""));
+    print_line(out, "Mapping",
+               std::string(record.flag("/certificate/converged") ? "converged after " : "did not converge in ") +
+                   counted(iterations, "iteration") +
+                   (added > 0 ? ", " + counted(added, "vertex", "vertices") + " added" : ""));
   }
-  if (result.other_mapping) {
-    const OtherMapping& other = *result.other_mapping;
-    line(out, "Mapped twice, kept", words_of_motions(result.domains_used) + ": " + other.because);
-    line(out, "The other",
-         words_of_motions(other.domains) + ": " + share_of(other.slip_area_fraction) + " beyond 3 A, " +
-             share_of(other.same_residue_area_fraction) + " on the same residue, unmatched " +
-             share_of(other.unmatched_source) + ", " + share_of(other.unmatched_target));
+  if (record.has("/motions/other")) {
+    const Record other(record.at("/motions/other"));
+    print_line(out, "Mapped twice, kept",
+               words_of_motions(record.text("/motions/domains")) + ": " + record.text("/motions/because"));
+    print_line(out, "The other",
+               words_of_motions(other.text("/domains")) + ": " + share_of(other.number("/beyond_3A_area_fraction")) +
+                   " beyond 3 A, " + share_of(other.number("/same_residue_area_fraction")) +
+                   " on the same residue, unmatched " + share_of(other.number("/no_counterpart_area_fraction/source")) +
+                   ", " + share_of(other.number("/no_counterpart_area_fraction/target")));
   }
-  if (result.flow_report.sweeps > 0) {
-    line(out, "Gradient vector flow",
-         std::string(result.flow_report.converged ? "converged after " : "did not converge in ") +
-             counted(n_of(result.flow_report.sweeps), "sweep"));
-  }
+  if (record.has("/gvf"))
+    print_line(out, "Gradient vector flow",
+               std::string(record.flag("/gvf/converged") ? "converged after " : "did not converge in ") +
+                   counted(record.count("/gvf/sweeps"), "sweep"));
 }
 
-void print_certificate(std::ostream& out, const CompareResult& result) {
+void print_certificate(std::ostream& out, const Record& record) {
   out << "\nCertificate\n";
-  print_lines(out, result, MetricSection::kCertificate);
-  print_mapping(out, result);
+  print_lines(out, record, MetricSection::kCertificate);
+  print_mapping(out, record);
   std::string not_checked;
-  for (const std::string& name : result.certificate.not_checked)
+  for (const std::string& name : record.texts("/certificate/not_checked"))
     not_checked += (not_checked.empty() ? "" : ", ") + name;
   std::replace(not_checked.begin(), not_checked.end(), '_', ' ');
-  if (!not_checked.empty()) line(out, "Not checked", not_checked);
+  if (!not_checked.empty()) print_line(out, "Not checked", not_checked);
 }
 
 /// The metrics, unmatched area and verdict of a region or patch.
-void print_part(std::ostream& out, const std::string& title, const CompareResult& part,
-                const OptionSpelling& spelling) {
-  heading(out, title + ": " + counted(part.residues.size(), "residue") + " of the source", {"trusted area"});
+void print_part(std::ostream& out, const std::string& title, const Record& part, const Record& whole) {
+  print_heading(out, title + ": " + counted(part.count("/n_residues"), "residue") + " of the source", {"trusted area"});
   for (const MetricSection section : {MetricSection::kPotential, MetricSection::kShape}) {
-    if (section == MetricSection::kPotential && !part.has_potential) continue;
+    if (section == MetricSection::kPotential && !whole.has_potential()) continue;
     for (const Metric& metric : metrics()) {
       if (metric.section == section && metric.has_result())
-        row(out, metric.label, unit_of(metric, to_string(part.unit)), {formatted(metric, value_of(metric, part))});
+        print_row(out, metric.label, unit_of(metric, whole.potential_unit()),
+                  {formatted(metric, part.value_of(metric))});
     }
   }
-  for (const FieldResult& field : part.fields) {
-    row(out, "Field " + field.quantity.name, field.quantity.unit,
-        {"mean abs. " + formatted("%.4g", field.metrics.mean_abs_difference),
-         "signed " + formatted("%.4g", field.metrics.mean_signed_difference)});
+  for (const auto& [name, json] : part.at("/fields").items()) {
+    const Record field(json);
+    print_row(out, "Field " + name, field.text("/unit"),
+              {"mean abs. " + formatted("%.4g", field.number("/mean_abs_difference")),
+               "signed " + formatted("%.4g", field.number("/mean_signed_difference"))});
   }
-  row(out, "Unmatched area", "",
-      {"source " + share_of(part.certificate.unmatched_source),
-       "target " + share_of(part.certificate.unmatched_target)});
-  line(out, "Verdict", verdict_of(part.certificate));
-  for (const Message& reason : part.certificate.reasons) item(out, reason.spelled(spelling), 4);
+  print_row(out, "Unmatched area", "",
+            {"source " + share_of(part.number("/certificate/no_counterpart_area_fraction/source")),
+             "target " + share_of(part.number("/certificate/no_counterpart_area_fraction/target"))});
+  print_line(out, "Verdict", part.text("/certificate/verdict"));
+  for (const std::string& reason : part.texts("/certificate/reasons")) print_item(out, reason, 4);
+  if (part.has("/placement")) print_item(out, part.text("/placement/in_words"));
 }
 
-void print_causes(std::ostream& out, const CompareResult& result) {
-  if (result.causes == nullptr) return;
-  for (const CausesOfReading& reading : result.causes->readings) {
-    out << "\nCauses of the difference, " << reading.name << '\n';
-    for (const std::string& text : causes_lines(*result.causes, reading, potential_unit_text(result))) item(out, text);
+/// What is said of each reading whose causes were asked for.
+void print_causes(std::ostream& out, const Record& record) {
+  for (const Json& reading : record.at("/causes")) {
+    out << "\nCauses of the difference, " << Record(reading).text("/reading") << '\n';
+    for (const std::string& text : causes_in_words(Record(reading))) print_item(out, text);
   }
 }
 
-void print_warnings(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
-  if (result.warnings.empty()) return;
+void print_warnings(std::ostream& out, const Record& record) {
+  const std::vector<std::string> warnings = record.texts("/warnings");
+  if (warnings.empty()) return;
   out << "\nWarnings\n";
-  for (const Warning& warning : result.warnings) item(out, warning.text.spelled(spelling));
+  for (const std::string& warning : warnings) print_item(out, warning);
 }
 
-/// "; the sign of the difference of region is not known: ..." for readings whose interval spans zero; otherwise empty.
-std::string unknown_signs(const CompareResult& result) {
-  std::string names;
-  if (result.causes == nullptr) return names;
-  for (const CausesOfReading& reading : result.causes->readings) {
-    if (reading.placements && reading.placements->spans_zero()) names += (names.empty() ? "" : ", ") + reading.name;
-  }
-  return names.empty() ? names
-                       : "; the sign of the difference is not known (" + names +
-                             "): with side chains in other places its interval spans zero";
-}
-
-void print_verdict(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
-  const Certificate& c = result.certificate;
-  out << '\n';
-  out << verdict_of(c) << (c.trustworthy ? ": " : ":\n");
-  if (!c.trustworthy) {
-    for (const Message& reason : c.reasons) item(out, reason.spelled(spelling));
+void print_verdict(std::ostream& out, const Record& record) {
+  const bool trustworthy = record.flag("/certificate/trustworthy");
+  out << '\n' << record.text("/certificate/verdict") << (trustworthy ? ": " : ":\n");
+  if (!trustworthy) {
+    for (const std::string& reason : record.texts("/certificate/reasons")) print_item(out, reason);
     return;
   }
-  out << "the numbers rest on " << share_of(c.trusted.source) << " of the source's surface and "
-      << share_of(c.trusted.target) << " of the target's" << unknown_signs(result) << '\n';
-  if (c.trusted.share() >= kWholeShare || c.untrusted_parts.empty()) return;
+  out << "the numbers rest on " << trusted_in_words(record) << unknown_signs(record) << '\n';
+  const std::vector<std::string> parts = record.texts("/certificate/untrusted_parts");
+  const bool whole = std::fmin(record.number("/certificate/trusted_area_fraction/source"),
+                               record.number("/certificate/trusted_area_fraction/target")) >= kWholeShare;
+  if (whole || parts.empty()) return;
   out << "Not trusted:\n";
-  for (const std::string& part : c.untrusted_parts) item(out, part);
+  for (const std::string& part : parts) print_item(out, part);
 }
 
 }  // namespace
 
-void print_table(std::ostream& out, const Molecule& source, const Molecule& target, const CompareResult& result,
-                 const OptionSpelling& spelling) {
-  out << "Source  " << source.name << "\nTarget  " << target.name << "\n\n";
-  print_superposition(out, source, result);
-  print_metrics(out, result);
-  print_offsets(out, result);
-  print_fields(out, result);
-  print_surfaces(out, result);
-  print_certificate(out, result);
-  if (result.region != nullptr) print_part(out, "Region", *result.region, spelling);
-  for (const PatchResult& patch : result.patches) {
-    print_part(out, "Patch " + patch.name, *patch.result, spelling);
-    if (patch.placement != nullptr) item(out, in_words(*patch.placement));
-  }
-  print_causes(out, result);
-  print_warnings(out, result, spelling);
-  print_verdict(out, result, spelling);
-}
-
-void print_verdict_line(std::ostream& out, const CompareResult& result) {
-  const Metric& metric = *find_metric_or_null(result.has_potential ? "mean_abs_difference" : "mean_displacement_A");
-  std::string label = metric.label;
-  label[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(label[0])));
-  out << verdict_of(result.certificate) << ": " << label << ' ' << formatted(metric, value_of(metric, result)) << ' '
-      << unit_of(metric, to_string(result.unit)) << '\n';
+void print_table(std::ostream& out, const Json& json) {
+  const Record record(json);
+  out << "Source  " << record.text("/names/source") << "\nTarget  " << record.text("/names/target") << "\n\n";
+  print_superposition(out, record);
+  print_metrics(out, record);
+  print_offsets(out, record);
+  print_fields(out, record);
+  print_surfaces(out, record);
+  print_certificate(out, record);
+  if (record.has("/region")) print_part(out, "Region", Record(record.at("/region")), record);
+  for (const auto& [name, patch] : record.at("/fixed_patches").items())
+    print_part(out, "Patch " + name, Record(patch), record);
+  print_causes(out, record);
+  print_warnings(out, record);
+  print_verdict(out, record);
 }
 
 }  // namespace espdiff

@@ -49,15 +49,6 @@ bool is_whole(const RecordJson& record) {
          is_list(record, "inputs") && is_list(record, "warnings") && is_list(certificate, "reasons");
 }
 
-RecordJson read_record(const std::string& path) {
-  const FileContent file = read_input(path);
-  require_memory_for_json(file.content, path);
-  RecordJson record = RecordJson::parse(file.content, nullptr, false);
-  if (record.is_discarded() || !is_whole(record))
-    throw FormatError(path, 0, "not a record that `espdiff compare` wrote; compare again");
-  return record;
-}
-
 const VtpNumbers& required_array(const PairFiles& files, const char* name, int n_components) {
   const VtpNumbers* const array = find_array(files.surface.point_arrays, name);
   if (array == nullptr || array->n_components != n_components)
@@ -98,10 +89,19 @@ std::string options_of(const RecordJson& record) {
 
 }  // namespace
 
+nlohmann::ordered_json read_comparison_record(const std::string& path) {
+  const FileContent file = read_input(path);
+  require_memory_for_json(file.content, path);
+  RecordJson record = RecordJson::parse(file.content, nullptr, false);
+  if (record.is_discarded() || !is_whole(record))
+    throw FormatError(path, 0, "not a record that `espdiff compare` wrote; compare again");
+  return record;
+}
+
 PairFiles read_pair_files(const std::string& prefix) {
   PairFiles files;
   files.prefix = prefix;
-  files.record = read_record(prefix + ".json");
+  files.record = read_comparison_record(prefix + ".json");
   files.unit = text_of(files.record, "potential_unit");
   files.surface = read_vtp(prefix + ".vtp");
   const RecordJson n_vertices = files.record.value("n_vertices", RecordJson());

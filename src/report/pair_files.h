@@ -21,6 +21,10 @@ struct PairFiles {
   std::string unit;               ///< of potentials, such as "kT/e"; empty without potentials
 };
 
+/// The content of OUT.json.
+/// @throws IoError, FormatError (a missing or damaged file, or one of something else), MemoryError
+nlohmann::ordered_json read_comparison_record(const std::string& path);
+
 /// @param prefix OUT
 /// @throws IoError, FormatError (missing or damaged files, another version's result, files of different comparisons)
 PairFiles read_pair_files(const std::string& prefix);

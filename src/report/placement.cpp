@@ -17,7 +17,8 @@ nlohmann::ordered_json placement_json(const PatchPlacement& p) {
           {"n_superposed_residues", p.n_residues},
           {"n_left_out", p.n_left_out},
           {"rmsd_A", p.rmsd_A},
-          {"found_area_fraction", p.found_area_fraction}};
+          {"found_area_fraction", p.found_area_fraction},
+          {"in_words", in_words(p)}};
 }
 
 std::string in_words(const PatchPlacement& p) {

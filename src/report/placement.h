@@ -8,7 +8,7 @@ namespace espdiff {
 
 struct PatchPlacement;
 
-/// Keys: file, sha256, patch, area_A2, n_superposed_residues, n_left_out, rmsd_A, found_area_fraction.
+/// Keys: file, sha256, patch, area_A2, n_superposed_residues, n_left_out, rmsd_A, found_area_fraction, in_words.
 nlohmann::ordered_json placement_json(const PatchPlacement& placement);
 
 /// "patch 1 of wild.json; 9 residues near it superposed (RMSD 0.8 A); 97 % of its 104.1 A^2 found"

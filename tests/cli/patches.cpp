@@ -102,7 +102,7 @@ TEST_CASE("compare: a patch has the region's numbers of the same residues, besid
   Json result = compared(files, files.a + " " + files.c + " --region //A/2-4" + kPatches);
   CHECK(result["region"] == result["fixed_patches"]["site"]);
   const Outcome printed = run_espdiff("compare " + files.a + " " + files.c + kPatches +
-                                      " --device cpu --pb-spacing 1 -o " + files.out("p"));
+                                      " --full --device cpu --pb-spacing 1 -o " + files.out("p"));
   CHECK(contains(printed.out, "Patch site: 3 residues of the source"));
   CHECK(contains(printed.out, "Patch far-end: 2 residues of the source"));
 }

@@ -118,7 +118,7 @@ TEST_CASE("a result names its domains") {
   CHECK(domains[1]["rmsd_A"].get<double>() < 1e-9);
   CHECK(json["options"]["domains"] == "A:1-3/B:1-2");
   std::ostringstream table;
-  espdiff::print_table(table, source, target, r, [](const espdiff::NamedOption& o) { return o.name; });
+  espdiff::print_table(table, json);
   CHECK(table.str().find("Rigid domain") != std::string::npos);
   CHECK(table.str().find("A, B:1-2\n") != std::string::npos);
 }

@@ -126,8 +126,9 @@ TEST_CASE("read_ccp4: what is wrong is said with the file") {
   };
   MadeMap map;
   CHECK(refused(map, 500) == "m.ccp4: it ends within the header of a CCP4 map");
-  CHECK(refused(map, 1100) ==
-        "m.ccp4: the header promises 24 values, but only 76 bytes follow; the file is cut short or its counts are wrong");
+  CHECK(
+      refused(map, 1100) ==
+      "m.ccp4: the header promises 24 values, but only 76 bytes follow; the file is cut short or its counts are wrong");
   map.mode = 4;
   CHECK(refused(map) ==
         "m.ccp4: its values are of mode 4, and 0, 1, 2 and 6 are read; save it with 32-bit floats (mode 2)");

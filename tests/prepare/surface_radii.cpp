@@ -37,7 +37,7 @@ TEST_CASE("set_surface_radii: two force fields, or radii on one side, give Bondi
   Molecule a = made(2, ValueOrigin::kFile), b = made(1.9F, ValueOrigin::kFile), c = made(1.7F, ValueOrigin::kElement);
   Molecule a2 = a;
   CHECK(set_surface_radii({&a, &b}, RadiiChoice::kAuto) ==
-        "the radii of the structures are of different force fields; both surfaces take Bondi's radii by element");
+        "the radii of the structures are of different force fields; all surfaces take Bondi's radii by element");
   CHECK(a.radii == b.radii);
   CHECK(a.radii[0] == doctest::Approx(1.55));  // nitrogen
   CHECK(set_surface_radii({&a2, &c}, RadiiChoice::kAuto).find("only some of the structures") == 0);
@@ -54,6 +54,23 @@ TEST_CASE("set_surface_radii: what is asked for is taken or refused") {
         }) == "made.pqr: radii file was asked for, and the file has no radii; take radii element");
   set_surface_radii({&a}, RadiiChoice::kElement);
   CHECK(a.radii[1] == doctest::Approx(1.7));
+}
+
+TEST_CASE("set_frame_radii: a frame of other radii than the source's is refused, with the remedy") {
+  const Molecule source = made(2, ValueOrigin::kFile), none;
+  Molecule same = made(2, ValueOrigin::kFile), other = made(1.9F, ValueOrigin::kFile),
+           bare = made(1.7F, ValueOrigin::kElement);
+  espdiff::set_frame_radii(source, same, RadiiChoice::kAuto);
+  CHECK(same.radii[0] == 2);
+  CHECK(message_of([&] { espdiff::set_frame_radii(source, other, RadiiChoice::kAuto); }) ==
+        "made.pqr: its radii are not of the kind that made.pqr has (another force field), so that their surfaces "
+        "differ everywhere; radii element gives both Bondi's");
+  CHECK(message_of([&] { espdiff::set_frame_radii(source, bare, RadiiChoice::kAuto); }) ==
+        "made.pqr: its radii are not of the kind that made.pqr has (only one of them has radii of its own), so that "
+        "their surfaces differ everywhere; radii element gives both Bondi's");
+  espdiff::set_frame_radii(none, other, RadiiChoice::kAuto);  // the first molecule is compared with nothing
+  espdiff::set_frame_radii(source, other, RadiiChoice::kElement);
+  CHECK(other.radii_origin == ValueOrigin::kElement);
 }
 
 TEST_CASE("region_residues: by selection, by distance, and by the target's ligand") {

@@ -91,7 +91,7 @@ TEST_CASE("the added metric is in OUT.json, the printed table and the residues' 
   CHECK(compare_json(source, target, result, {}, {})["shrinkage_fraction"] == 0.25);
   CHECK(compare_json(source, target, result, {}, {})["travel_A"] == 2.5);
   std::ostringstream table;
-  print_table(table, source, target, result, [](const NamedOption& o) { return o.name; });
+  print_table(table, compare_json(source, target, result, {}, {}));
   CHECK(contains(table.str(), "Shrinkage"));
   CHECK(contains(table.str(), "25 %"));
   write_compare(folder.file("out"), source, target, result, {}, {});

@@ -46,7 +46,7 @@ OrderedJson json_of(const CompareResult& result) {
 
 std::string table_of(const CompareResult& result) {
   std::ostringstream out;
-  print_table(out, two_residues(), two_residues(), result, [](const NamedOption& o) { return "--" + o.name; });
+  print_table(out, json_of(result));
   return out.str();
 }
 

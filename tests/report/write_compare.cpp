@@ -95,10 +95,10 @@ Provenance made_provenance() {
   return provenance;
 }
 
-Json made_json(const CompareResult& result) {
+Json made_json(const CompareResult& result, const espdiff::OptionSpelling& spelling = espdiff::bare_name) {
   CompareOptions options;
   options.method = espdiff::Method::kDeform;
-  return compare_json(made_molecule("a.pqr"), made_molecule("b.pqr"), result, options, made_provenance());
+  return compare_json(made_molecule("a.pqr"), made_molecule("b.pqr"), result, options, made_provenance(), spelling);
 }
 
 void write(const std::string& prefix, const CompareResult& result = made_result()) {
@@ -107,8 +107,7 @@ void write(const std::string& prefix, const CompareResult& result = made_result(
 
 std::string made_table(const CompareResult& result) {
   std::ostringstream out;
-  print_table(out, made_molecule("a.pqr"), made_molecule("b.pqr"), result,
-              [](const espdiff::NamedOption& o) { return "--" + o.name; });
+  print_table(out, made_json(result, [](const espdiff::NamedOption& o) { return "--" + o.name; }));
   return out.str();
 }
 

@@ -1,0 +1,159 @@
+// compare_answer.cpp: what most readers need of a comparison, in about twenty lines.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "base/formatted.h"
+#include "compare/result.h"
+#include "compare/trusted_area.h"
+#include "report/metrics.h"
+#include "report/record.h"
+#include "report/record_words.h"
+#include "report/text_lines.h"
+#include "report/write_compare.h"
+
+namespace espdiff {
+namespace {
+
+using Json = Record::Json;
+
+constexpr std::size_t kLabelWidth = 27, kValueWidth = 16, kBasisWidth = 17;
+
+/// The verdict; below it the reasons, in full, of one that refuses.
+void print_brief_verdict(std::ostream& out, const Record& record) {
+  const std::string verdict = record.text("/certificate/verdict");
+  if (record.flag("/certificate/trustworthy")) {
+    print_wrapped(out, verdict + ": the numbers rest on " + trusted_in_words(record) + unknown_signs(record));
+    return;
+  }
+  out << verdict << ":\n";
+  for (const std::string& reason : record.texts("/certificate/reasons")) print_item(out, reason);
+}
+
+/// Label, number with unit, and what belongs to it.
+void print_brief_number(std::ostream& out, const std::string& label, const std::string& value,
+                        const std::string& beside) {
+  const std::string line = padded(label, kLabelWidth) + padded(value, beside.empty() ? 0 : kValueWidth) + beside;
+  out << line << '\n';
+}
+
+std::string number_with_unit(const Metric& metric, double value, const std::string& potential_unit) {
+  const std::string unit = unit_of(metric, potential_unit);
+  return formatted(metric, value) + (unit.empty() || std::isnan(value) ? "" : " " + unit);
+}
+
+/// What a metric's number means where its name does not say so.
+std::string beside(const std::string& name, const Record& record) {
+  if (name == "mean_abs_difference") return "whole surface: " + whole_surface_in_words(record);
+  if (name == "mean_signed_difference") return "target - source";
+  if (name == "hodgkin_index") return "1 same, 0 unrelated, -1 opposite";
+  return {};
+}
+
+void print_brief_part(std::ostream& out, const std::string& title, const Json& json, const Record& whole) {
+  const Record part(json);
+  const Metric& mean = *find_metric_or_null(whole.has_potential() ? "mean_abs_difference" : "mean_displacement_A");
+  const Metric& signed_mean = *find_metric_or_null("mean_signed_difference");
+  std::string text = part.text("/certificate/verdict") + "; " + counted(part.count("/n_residues"), "residue");
+  if (whole.has_potential()) text = "signed " + formatted(signed_mean, part.value_of(signed_mean)) + "; " + text;
+  print_brief_number(out, title, number_with_unit(mean, part.value_of(mean), whole.text("/potential_unit")), text);
+  for (const std::string& reason : part.texts("/certificate/reasons")) print_item(out, reason, 4);
+  if (part.has("/placement")) print_item(out, part.text("/placement/in_words"), 4);
+}
+
+void print_main_numbers(std::ostream& out, const Record& record) {
+  const std::vector<const char*> names = record.has_potential()
+                                             ? std::vector<const char*>{"mean_abs_difference", "mean_signed_difference",
+                                                                        "sign_change_area_fraction", "hodgkin_index"}
+                                             : std::vector<const char*>{"mean_displacement_A"};
+  for (const char* name : names) {
+    const Metric& metric = *find_metric_or_null(name);
+    print_brief_number(out, metric.label,
+                       number_with_unit(metric, record.value_of(metric), record.text("/potential_unit")),
+                       beside(name, record));
+  }
+  for (const auto& [name, json] : record.at("/fields").items()) {
+    const Record field(json);
+    const std::string unit = field.text("/unit");
+    print_brief_number(out, "Field " + name,
+                       formatted("%.4g", field.number("/mean_abs_difference")) + (unit.empty() ? "" : " " + unit),
+                       "mean absolute difference; signed " +
+                           formatted("%.4g", field.number("/mean_signed_difference")) + ", correlation " +
+                           formatted("%.3g", field.number("/correlation")));
+  }
+  if (record.has("/region")) print_brief_part(out, "Region", record.at("/region"), record);
+  for (const auto& [name, patch] : record.at("/fixed_patches").items())
+    print_brief_part(out, "Patch " + name, patch, record);
+}
+
+void print_basis(std::ostream& out, const Record& record) {
+  const auto line = [&](const std::string& label, const std::string& text) {
+    if (!text.empty()) print_wrapped(out, text, label, kBasisWidth, 2);
+  };
+  line("Source", record.text("/names/source"));
+  line("Target", record.text("/names/target"));
+  if (record.count("/n_paired_atoms") > 0) {
+    const Metric& rmsd = *find_metric_or_null("rmsd_A");
+    line("Paired", paired_in_words(record) + "; RMSD " + formatted(rmsd, record.value_of(rmsd)) + " A");
+  } else {
+    line("Paired", "no atoms; compared where they lie");
+  }
+  for (const auto& [label, text] : chains_in_words(record)) line(label, text);
+  if (record.has_potential()) {
+    line("Potential", record.has("/potential") ? record.text("/potential/label") : "of the given maps");
+  } else {
+    line("Shapes alone", record.text("/shapes_because"));
+  }
+  for (const Json& note : record.at("/notes")) line(Record(note).text("/label"), Record(note).text("/text"));
+  std::string parts;
+  for (const std::string& part : record.texts("/certificate/untrusted_parts"))
+    parts += (parts.empty() ? "" : "; ") + part;
+  const double trusted = std::min(record.number("/certificate/trusted_area_fraction/source"),
+                                  record.number("/certificate/trusted_area_fraction/target"));
+  if (record.flag("/certificate/trustworthy") && trusted < kWholeShare) line("Not trusted", parts);
+}
+
+void print_brief_causes(std::ostream& out, const Record& record) {
+  constexpr std::size_t kLongest = 8;
+  for (const Json& reading : record.at("/causes")) {
+    out << "\nCauses of the difference, " << Record(reading).text("/reading") << '\n';
+    std::vector<std::string> sentences = causes_in_words(Record(reading));
+    sentences.pop_back();  // the check of their sum
+    for (const std::string& sentence : sentences) print_wrapped(out, sentence, "  -", 4, kLongest);
+  }
+}
+
+/// Those that refuse, or are few, in two lines each; of many one line each.
+void print_brief_warnings(std::ostream& out, const Record& record) {
+  constexpr std::size_t kMost = 8, kFew = 3;
+  const std::vector<std::string> warnings = record.texts("/warnings");
+  if (warnings.empty()) return;
+  out << "\nWarnings\n";
+  for (std::size_t i = 0; i < warnings.size() && i < kMost; ++i)
+    print_wrapped(out, warnings[i], "  -", 4, warnings.size() <= kFew ? 2 : 1);
+  if (warnings.size() > kMost) out << "  - " << warnings.size() - kMost << " more\n";
+}
+
+}  // namespace
+
+void print_answer(std::ostream& out, const Json& json, const std::string& show) {
+  const Record record(json);
+  print_brief_verdict(out, record);
+  out << '\n';
+  print_main_numbers(out, record);
+  out << '\n';
+  print_basis(out, record);
+  print_brief_causes(out, record);
+  print_brief_warnings(out, record);
+  if (!show.empty()) out << "\nEvery number: " << show << '\n';
+}
+
+void print_verdict_line(std::ostream& out, const CompareResult& result) {
+  const Metric& metric = *find_metric_or_null(result.has_potential ? "mean_abs_difference" : "mean_displacement_A");
+  std::string label = metric.label;
+  label[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(label[0])));
+  out << verdict_of(result.certificate) << ": " << label << ' ' << formatted(metric, value_of(metric, result)) << ' '
+      << unit_of(metric, to_string(result.unit)) << '\n';
+}
+
+}  // namespace espdiff
