@@ -11,11 +11,15 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
+/// An atom's value, less what values are counted from; both 0 where it has none.
+struct AtomValue {
+  float value, has_value;
+};
+
 struct Reading {
   AtomCellsView cells;
-  float origin;            ///< what values are counted from, so that those of equal atoms come out exactly
-  const float* value;      ///< [sorted atom] less the origin; 0 where it has none
-  const float* has_value;  ///< [sorted atom] 1 or 0
+  float origin;             ///< what values are counted from, so that those of equal atoms come out exactly
+  const AtomValue* values;  ///< [sorted atom]
   PointList points;
   float* result;  ///< [vertex]
 };
@@ -41,7 +45,7 @@ ESPDIFF_INLINE float mean_at(const Reading& in, Vec3f p) {
   ValueSums<float> sums;
   sum_at_point(in.cells, p,
                [&](std::uint32_t a, float, float, float, float, float, float gaussian)
-                   ESPDIFF_INLINE_LAMBDA { sums.add(in.value[a], in.has_value[a], gaussian); });
+                   ESPDIFF_INLINE_LAMBDA { sums.add(in.values[a].value, in.values[a].has_value, gaussian); });
   return mean_of(in.origin, sums.density, sums.known, sums.value);
 }
 
@@ -51,7 +55,7 @@ ESPDIFF_INLINE float decay_sum_at(const Reading& in, Vec3f p) {
   int n = 0;
   sum_at_point(in.cells, p,
                [&](std::uint32_t a, float, float, float, float, float square, float) ESPDIFF_INLINE_LAMBDA {
-                 sum += in.value[a] * exp_of_negative(-sqrtf(square));
+                 sum += in.values[a].value * exp_of_negative(-sqrtf(square));
                  ++n;
                });
   return n > 0 ? sum : NAN;
@@ -69,9 +73,10 @@ void read_by_points(const Reading& in, AtomWeight weight) {
 
 ESPDIFF_INLINE void mean_block(const Reading& in, std::size_t block) {
   ValueSums<Lanes> sums;
-  sum_at_block(in.cells, in.points, block,
-               [&](std::uint32_t a, float, const Lanes&, const Lanes&, const Lanes&, const Lanes&,
-                   const Lanes& gaussian) ESPDIFF_INLINE_LAMBDA { sums.add(in.value[a], in.has_value[a], gaussian); });
+  sum_at_block(
+      in.cells, in.points, block,
+      [&](std::uint32_t a, float, const Lanes&, const Lanes&, const Lanes&, const Lanes&, const Lanes& gaussian)
+          ESPDIFF_INLINE_LAMBDA { sums.add(in.values[a].value, in.values[a].has_value, gaussian); });
   const std::size_t begin = block * kBlock;
   for (std::size_t lane = 0; lane < kBlock && begin + lane < in.points.n; ++lane)
     in.result[in.points.list[begin + lane]] =
@@ -88,7 +93,7 @@ ESPDIFF_MULTIVERSION void mean_blocks(const Reading& in, std::size_t first, std:
 struct UploadedValues {
   std::shared_ptr<AtomCells> cells;
   float origin = 0;
-  Buffer<float> value, has_value;
+  Buffer<AtomValue> sorted;
 
   explicit UploadedValues(const AtomValues& atoms) {
     if (atoms.widths.size() != atoms.positions.size() || atoms.values.size() != atoms.positions.size())
@@ -98,21 +103,20 @@ struct UploadedValues {
     if (first == atoms.values.end()) throw InputError("atom_field: no atom has a value");
     const bool is_mean = atoms.weight == AtomWeight::kDensityMean;
     if (is_mean) origin = *first;
-    std::vector<float> widths = atoms.widths, values, known;
+    std::vector<float> widths = atoms.widths;
+    std::vector<AtomValue> values;
     for (std::size_t i = 0; i < widths.size(); ++i) {
       const float v = atoms.values[i];
-      known.push_back(is_known(v) ? 1.0F : 0.0F);
-      values.push_back(is_known(v) ? v - origin : 0.0F);
+      values.push_back(is_known(v) ? AtomValue{v - origin, 1.0F} : AtomValue{0.0F, 0.0F});
       if (!is_mean) widths[i] = is_known(v) ? static_cast<float>(kDecayReach_A) / kCutoffInWidths : 0.0F;
     }
     Buffer<std::uint32_t> order;
     cells = make_atom_cells(atoms.positions, widths, std::vector<std::int32_t>(widths.size(), 0), &order);
-    value = in_cell_order(values, order);
-    has_value = in_cell_order(known, order);
+    sorted = in_cell_order(values, order);
   }
 
   Reading reading(const PointList& points, Buffer<float>& result) const {
-    return {cells->view(), origin, raw(value), raw(has_value), points, raw(result)};
+    return {cells->view(), origin, raw(sorted), points, raw(result)};
   }
 };
 
