@@ -28,6 +28,7 @@
 #include "cuda/potential/pme.h"
 #include "cuda/potential/poisson_boltzmann.h"
 #include "cuda/surface/adjacency.h"
+#include "cuda/surface/atom_field.h"
 #include "cuda/surface/carry.h"
 #include "cuda/surface/components.h"
 #include "cuda/surface/density.h"
@@ -42,6 +43,7 @@
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
+#include "engine/field_stage.h"
 #include "engine/make_engine.h"
 #include "engine/morph_stage.h"
 #include "engine/potential_stage.h"
@@ -399,6 +401,10 @@ class BackEndEngine : public Engine {
   std::vector<std::int32_t> vertex_residues(const MeshPtr& mesh, const AtomsPtr& atoms) override {
     return run(
         [&] { return to_host(ESPDIFF_BACKEND::vertex_residues(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms))); });
+  }
+
+  std::vector<float> atom_field(const MeshPtr& mesh, const AtomValues& atoms) override {
+    return run([&] { return to_host(ESPDIFF_BACKEND::atom_field(unwrap<SurfaceMesh>(mesh), atoms)); });
   }
 
   ScalarsPtr displacement(const MeshPtr& a, const MeshPtr& b) override {

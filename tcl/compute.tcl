@@ -13,7 +13,11 @@ namespace eval ::espdiff {
         set values [dict get $options settings]
         foreach setting [core::settings] {
             set name [dict get $setting name]
-            if {[dict get $setting kind] eq "named" && [dict exists $values $name]} {
+            if {$name eq "field" && [dict exists $values $name]} {
+                dict set values $name [join [named_list -$name {NAME KIND} [dict get $values $name] {name kind} {
+                    return $name=[expr {$kind eq "" ? $name : $kind}]
+                }] |]
+            } elseif {[dict get $setting kind] eq "named" && [dict exists $values $name]} {
                 dict set values $name [join [named_list -$name {NAME SELECTION} [dict get $values $name] {name selection} {
                     if {[regexp {^(.+\.json)(:\d+)$} $selection -> path number]} {
                         set selection [existing_file $path "-patch $name"]$number

@@ -131,7 +131,7 @@ namespace eval ::espdiff {
         command "a Tcl command"
         device "auto, cpu, cuda or cuda:N"
         text "a text"
-        named "a list {NAME SELECTION ...}"
+        named "a list {NAME TEXT ...}"
         file "a file name"
         molecule "the id of a molecule in VMD, or top"
     }
@@ -158,7 +158,11 @@ namespace eval ::espdiff {
             }
             range { set valid [expr {$value eq "auto" || [is_range $value]}] }
             command { set valid [string is list $value] }
-            named { set valid [expr {[string is list $value] && [llength $value] % 2 == 0}] }
+            named {
+                # A field may go by its kind's name.
+                if {$name eq "-field" && [llength $value] == 1} { lappend value {} }
+                set valid [expr {[string is list $value] && [llength $value] % 2 == 0}]
+            }
             device { set valid [regexp {^(auto|cpu|cuda(:[0-9]{1,4})?)$} $value] }
             choice {
                 # The core knows more about settings, such as values added by a later version.

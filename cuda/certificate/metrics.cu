@@ -14,7 +14,8 @@ namespace {
 /// Area-weighted sums over vertices.
 struct Sums {
   double area = 0, abs_difference = 0, squared_difference = 0, difference = 0, sign_change = 0;
-  double source_source = 0, target_target = 0, source_target = 0, displacement = 0, path_length = 0;
+  double source = 0, target = 0, source_source = 0, target_target = 0, source_target = 0, displacement = 0,
+         path_length = 0;
 
   ESPDIFF_HD Sums& operator+=(const Sums& o) {
     area += o.area;
@@ -22,6 +23,8 @@ struct Sums {
     squared_difference += o.squared_difference;
     difference += o.difference;
     sign_change += o.sign_change;
+    source += o.source;
+    target += o.target;
     source_source += o.source_source;
     target_target += o.target_target;
     source_target += o.source_target;
@@ -30,6 +33,16 @@ struct Sums {
     return *this;
   }
 };
+
+/// Pearson's correlation. A spread that rounding could have made counts as none.
+double correlation_of(const Sums& sums) {
+  const double w = sums.area, of_source = sums.source_source - sums.source * sums.source / w,
+               of_target = sums.target_target - sums.target * sums.target / w;
+  constexpr double kRounding = 1e-12;
+  if (!(of_source > kRounding * sums.source_source) || !(of_target > kRounding * sums.target_target))
+    return std::numeric_limits<double>::quiet_NaN();
+  return (sums.source_target - sums.source * sums.target / w) / std::sqrt(of_source * of_target);
+}
 
 Metrics finish(const Sums& sums) {
   Metrics m;
@@ -42,6 +55,7 @@ Metrics finish(const Sums& sums) {
   m.carbo_index = sums.source_target / std::sqrt(sums.source_source * sums.target_target);
   m.mean_displacement_A = sums.displacement / sums.area;
   m.mean_path_length_A = sums.path_length / sums.area;
+  m.correlation = correlation_of(sums);
   return m;
 }
 
@@ -92,6 +106,8 @@ Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped,
     s.squared_difference = w * d * d;
     s.difference = w * d;
     s.sign_change = (pa < 0 && pb > 0) || (pa > 0 && pb < 0) ? w : 0;
+    s.source = w * pa;
+    s.target = w * pb;
     s.source_source = w * pa * pa;
     s.target_target = w * pb * pb;
     s.source_target = w * pa * pb;

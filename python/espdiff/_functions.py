@@ -27,13 +27,19 @@ def _as_text(value):
 
 
 def _as_settings(options):
-    """[(name, text)] of keyword arguments: grid_spacing=1 is the option grid-spacing; patches={name: selection}."""
+    """[(name, text)] of keyword arguments: grid_spacing=1 is the option grid-spacing; patches={name: selection};
+    fields={name: kind}, or a list of kinds."""
     options = dict(options)
     patches = options.pop("patches", None) or {}
     if not hasattr(patches, "items"):
         raise _core.InputError(f'patches: {patches!r} is not a dict, such as {{"site": "//A/8-12"}}')
+    fields = options.pop("fields", None) or []
+    if isinstance(fields, str):
+        fields = [fields]
+    if hasattr(fields, "items"):
+        fields = [f"{name}={kind}" for name, kind in fields.items()]
     return [(name.replace("_", "-"), _as_text(value)) for name, value in options.items()] + [
-        ("patch", f"{name}={selection}") for name, selection in patches.items()]
+        ("patch", f"{name}={selection}") for name, selection in patches.items()] + [("field", field) for field in fields]
 
 
 def _call(function, options):

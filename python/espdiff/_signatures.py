@@ -13,15 +13,16 @@ from . import _core
 
 _TYPES = {"number": float, "integer": int, "boolean": bool, "choice": str, "text": str, "list": typing.Union[str, list],
           "named": dict}
+PLURALS = {"patch": "patches", "field": "fields"}  # of options that may be given several times, under names
 PREPARATION_GROUPS = ("Structures", "Charges")
 
 
 def option_rows(groups=None):
-    """The rows of the table under their Python names: grid_spacing for grid-spacing, patches for several of patch."""
+    """The rows of the table under their Python names: grid_spacing for grid-spacing, patches for several of patch, fields of field."""
     rows = []
     for row in _core.settings():
         if groups is None or row["group"] in groups:
-            name = "patches" if row["kind"] == "named" else row["name"].replace("-", "_")
+            name = PLURALS[row["name"]] if row["kind"] == "named" else row["name"].replace("-", "_")
             rows.append({**row, "name": name})
     return rows
 
@@ -48,7 +49,7 @@ def takes_options(function=None, *, groups=None, besides=()):
              if name not in taken]
     options = [inspect.Parameter(row["name"], inspect.Parameter.KEYWORD_ONLY, default=_default(row),
                                  annotation=_TYPES[row["kind"]]) for row in rows]
-    known = taken | {p.name for p in extra} | {row["name"] for row in rows} | {"patch"}
+    known = taken | {p.name for p in extra} | {row["name"] for row in rows} | set(PLURALS)
     label = function.__qualname__.replace(".__init__", "")
 
     @functools.wraps(function)

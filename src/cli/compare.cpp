@@ -18,6 +18,7 @@
 #include "compare/options.h"
 #include "compare/result.h"
 #include "engine/engine.h"
+#include "field/field_kinds.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
 #include "io/structure_file.h"
@@ -61,7 +62,6 @@ void add_input_options(CLI::App& p, CompareArguments& a) {
       ->group("Residues");
   p.add_option("--residue-quantity", a.residue_quantity,
                "Column of the residue table (mean_abs_difference; without potentials mean_displacement_A)")
-      ->check(CLI::IsMember(residue_quantities()))
       ->group("Residues");
   p.add_option("--source-model", a.source_model, "Model of a multi-model source file, from 1")
       ->check(CLI::PositiveNumber)
@@ -135,6 +135,9 @@ void check_files(const CompareArguments& a, const CompareOptions& options, const
                            outputs = {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb,
                                       a.picture};
   inputs.insert(inputs.end(), {a.source, a.target, a.maps.source_map, a.maps.target_map});
+  for (const FieldRequest& field : options.fields) {
+    for (const std::string& path : files_of(field)) inputs.push_back(path);
+  }
   for (const std::string& ending : cause_endings(options)) outputs.push_back(a.output + ending);
   for (const std::string& ending : kept) outputs.push_back(a.output + ending);
   check_outputs(inputs, outputs);
@@ -261,6 +264,7 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   if (!a.picture.empty()) require_drawing(a.picture);
   if (a.residue_pdb.empty() && !a.residue_quantity.empty())
     throw InputError("--residue-quantity needs --residue-pdb FILE");
+  if (!a.residue_quantity.empty()) require_residue_quantity(a.residue_quantity, options.fields);
 
   Provenance provenance;
   provenance.command_line = context.command_line;

@@ -24,7 +24,7 @@ namespace espdiff::cli {
 namespace {
 
 struct PlotArguments {
-  std::string input, output, source, order = "given", x, title, kind = "bars";
+  std::string input, output, source, order = "given", x, title, field, kind = "bars";
   int top = 20;
   std::vector<std::string> metrics;
   std::vector<double> range;
@@ -249,10 +249,12 @@ int plot_verb(PlotArguments& a, const Context&) {
     if (a.normalize || !a.metrics.empty() || !a.x.empty() || !a.range.empty())
       throw InputError("--normalize, --metric, --x and --range are of other tables, and " + a.input +
                        " is one of a comparison's residues");
-    const StatePlot plot = state_plot(table, a.kind == "bars", static_cast<std::size_t>(a.top), a.title);
+    const StatePlot plot = state_plot(table, a.kind == "bars", static_cast<std::size_t>(a.top), a.title, a.field);
     write_picture(a.output, a.kind == "bars" ? state_bars_script(plot, format) : state_scatter_script(plot, format));
     return 0;
   }
+  if (!a.field.empty())
+    throw InputError("--field is of a comparison's residues, and " + a.input + " is no table of them");
   if (!is_json && is_residue_table(table)) {
     if (a.normalize || !a.metrics.empty() || !a.x.empty())
       throw InputError("--normalize, --metric and --x are for lines, and " + a.input + " is a table of residues");
@@ -302,6 +304,7 @@ Verb add_plot(CLI::App& app) {
                      "Columns to draw; several for lines (default: the clustering metric; for a "
                      "trajectory mean_abs_difference)");
   parser->add_option("--title", a->title, "Title of a plot of lines");
+  parser->add_option("--field", a->field, "Residues of a comparison: a field in the place of the potential");
   parser->add_option("--kind", a->kind, "Residues of a comparison as signed bars with both states, or as a scatter")
       ->check(CLI::IsMember({"bars", "scatter"}))
       ->capture_default_str()

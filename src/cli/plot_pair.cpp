@@ -12,21 +12,24 @@ namespace espdiff::cli {
 
 bool is_pair_table(const CsvTable& table) { return table.find("residue_number") == 1 && table.find("area [A^2]") > 0; }
 
-StatePlot state_plot(const CsvTable& table, bool bars, std::size_t top, const std::string& title) {
+StatePlot state_plot(const CsvTable& table, bool bars, std::size_t top, const std::string& title,
+                     const std::string& field) {
   StatePlot plot;
   std::size_t source = 0, target = 0, difference = 0;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const std::string& name = table.columns[c];
     const std::size_t bracket = name.find(" [");
     const std::string base = name.substr(0, bracket);
-    if (base == "mean_source") source = c;
-    if (base == "mean_target") target = c;
-    if (base != "mean_signed_difference") continue;
+    const std::string of_field = field.empty() ? "" : field + "_";
+    if (base == of_field + "mean_source") source = c;
+    if (base == of_field + "mean_target") target = c;
+    if (base != of_field + "mean_signed_difference") continue;
     difference = c;
     if (bracket != std::string::npos) plot.unit = name.substr(bracket + 2, name.size() - bracket - 3);
   }
   if (source == 0 || target == 0 || difference == 0)
-    throw InputError(table.path + ": has no potentials of both states; compare with charges or maps");
+    throw InputError(!field.empty() ? table.path + ": has no field '" + field + "'; compare with --field " + field
+                                    : table.path + ": has no potentials of both states; compare with charges or maps");
   const std::size_t chain = table.require("chain"), number = table.require("residue_number"),
                     name = table.require("residue_name"), insertion = table.require("insertion_code");
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -42,9 +45,10 @@ StatePlot state_plot(const CsvTable& table, bool bars, std::size_t top, const st
     });
     plot.bars.resize(top);
   }
-  plot.title = !title.empty() ? title
-               : bars         ? "Bars: target - source, mean of each residue"
-                              : "Mean potential of each residue";
+  plot.title = !title.empty()  ? title
+               : bars          ? "Bars: target - source, mean of each residue"
+               : field.empty() ? "Mean potential of each residue"
+                               : "Mean of each residue: " + field;
   return plot;
 }
 

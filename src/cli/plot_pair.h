@@ -17,8 +17,10 @@ bool is_pair_table(const CsvTable& table);
 
 /// The residues of a comparison that have a mean in both states.
 /// @param bars the `top` ones that differ most (0: all); otherwise all in file order
-/// @throws InputError (shapes alone were compared)
-StatePlot state_plot(const CsvTable& table, bool bars, std::size_t top, const std::string& title);
+/// @param field whose means are drawn; empty for the potential
+/// @throws InputError (shapes alone were compared, no such field)
+StatePlot state_plot(const CsvTable& table, bool bars, std::size_t top, const std::string& title,
+                     const std::string& field);
 
 /// As `espdiff plot TABLE -o PICTURE`, of a trajectory's table.
 /// @throws as line_plot_script(), write_picture()

@@ -52,6 +52,9 @@ void add_colour_options(CLI::App& p, SceneArguments& a) {
         return names;
       }()))
       ->type_name("WORD");
+  add<Text>(p, a, "--field", "A field of --field of the comparison, drawn in the place of the potential [none]",
+            [](Scene& s, const Text& t) { s.field = t; })
+      ->type_name("NAME");
   add<Text>(p, a, "--range",
             "End of the colour scale, for signed values both ends, or LOW:HIGH; 0: by --percentile [0]", set_range)
       ->type_name("NUMBER");
@@ -143,6 +146,7 @@ void add_layout_options(CLI::App& p, SceneArguments& a) {
 void share_ranges(Scene& scene, const std::string& surface, const std::vector<std::string>& others) {
   if (scene.range.given_ends || scene.range.limit > 0)
     throw InputError("--range-of and --range exclude each other: one of them sets the scale");
+  if (!scene.field.empty()) throw InputError("--range-of is a scale of potentials; give --range with --field");
   std::vector<std::string> surfaces = {surface};
   for (const std::string& other : others) surfaces.push_back(surface_of_result(other));
   const std::map<std::string, double> limits = shared_limits(surfaces, scene.range.percentile);

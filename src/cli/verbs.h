@@ -35,6 +35,7 @@ Verb add_merge(CLI::App& app);
 Verb add_ensemble(CLI::App& app);
 #endif
 Verb add_export(CLI::App& app);
+Verb add_fields(CLI::App& app);
 Verb add_surface(CLI::App& app);
 Verb add_plot(CLI::App& app);
 Verb add_potential(CLI::App& app);

@@ -16,6 +16,7 @@
 #include "compare/choose_motions.h"
 #include "compare/common_frame.h"
 #include "compare/compare.h"
+#include "compare/compare_fields.h"
 #include "compare/compare_potentials.h"
 #include "compare/domain_motions.h"
 #include "compare/input.h"
@@ -46,6 +47,7 @@
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
 #include "engine/morph_stage.h"
+#include "field/field_kinds.h"
 
 namespace espdiff {
 
@@ -54,6 +56,8 @@ struct Series::Steps {
   Engine& engine;
   CompareInput source;
   CompareOptions options;
+  std::vector<Field> fields{};  ///< besides the potential
+  StateFields source_fields{};  ///< of the source, one for each of them
   bool prepared = false;
   Surface surface{};
   MeshPtr regularized{};
@@ -87,7 +91,7 @@ struct Series::Steps {
                    const AtomPairing& pairing, const Progress& progress) const {
     std::vector<std::pair<std::string, double>> times;  // the caller's clock has one entry for the whole mapping
     StageClock clock(times);
-    Steps back{engine, target, options, true, target_surface};
+    Steps back{engine, target, options, {}, {}, true, target_surface};
     const MeshPtr& mesh = options.method == Method::kMorph ? target_surface.whole : target_surface.mesh;
     back.regularized = espdiff::regularize(engine, target_surface, mesh, options, progress, &back.regularize_report);
     CompareResult scratch;
@@ -251,8 +255,8 @@ struct Series::Steps {
   }
 
   /// Fills in the results of a mapping: normals, potentials, metrics, residues, and the verdict.
-  void evaluate(const CompareInput& target, const Surface& target_surface, const GridPtr& target_map, MappedStep& step,
-                const Progress& progress, StageClock& clock) {
+  void evaluate(const CompareInput& target, const StateFields& target_fields, const Surface& target_surface,
+                const GridPtr& target_map, MappedStep& step, const Progress& progress, StageClock& clock) {
     progress.report("metrics", 0.0);
     CompareResult& result = step.result;
     const float isovalue = static_cast<float>(options.surface.isovalue);
@@ -274,6 +278,10 @@ struct Series::Steps {
     }
     check_against_own(target, target_map, step.mapping, target_surface, target_of, result);
     if (target_map != nullptr) compare_potentials(engine, samples, parts, step);
+    compare_fields(engine, fields,
+                   {source_fields, *source.molecule, surface.atoms, step.frame.from_source, source_map.map},
+                   {target_fields, *target.molecule, target_surface.atoms, step.frame.from_target, target_map}, options,
+                   parts, step);
     describe_chains(target, target_of, result);
     Certificate& certificate = result.certificate;
     certificate.trusted = sum_trusted(result.surface, {}, certificate.unmatched_target);
@@ -399,6 +407,7 @@ struct Series::Steps {
     StageClock clock(time_ms);
     check_maps(source, target);  // before any work
     check_causes(options, source, target);
+    const StateFields target_fields = make_state_fields(fields, *target.molecule, FieldSide::kTarget);
     progress.report("align", 0.0);
     const CommonFrame frame = align(*source.molecule, *target.molecule, options, result);
     result.warnings = input_warnings(*source.molecule, *target.molecule, result);
@@ -431,7 +440,7 @@ struct Series::Steps {
     } else {
       certificate.not_checked.emplace_back("round_trip");
     }
-    evaluate(target, target_surface, target_map, mapped, progress, clock);
+    evaluate(target, target_fields, target_surface, target_map, mapped, progress, clock);
     if (options.method == Method::kMorph) {
       last = after_morph(mapped.morphed, *target.molecule, frame.from_target, std::move(target_atoms), before,
                          certificate.unmatched_source);
@@ -446,7 +455,10 @@ struct Series::Steps {
 };
 
 Series::Series(Engine& engine, const CompareInput& source, const CompareOptions& options)
-    : steps_(new Steps{engine, source, options}) {}
+    : steps_(new Steps{engine, source, options}) {
+  steps_->fields = make_fields(options.fields);
+  steps_->source_fields = make_state_fields(steps_->fields, *source.molecule, FieldSide::kSource);
+}
 Series::~Series() = default;
 
 CompareResult Series::step(const CompareInput& target, StartFrom start, const Progress& progress) {

@@ -37,11 +37,11 @@ FieldPtr make_field(Engine& engine, const Surface& source, const Surface& target
                     const Progress& progress, VectorFlowReport* report) {
   const float isovalue = static_cast<float>(options.surface.isovalue);
   switch (options.field) {
-    case FieldKind::kDensity: return engine.density_field(target.density, isovalue);
-    case FieldKind::kDistance:
+    case DeformField::kDensity: return engine.density_field(target.density, isovalue);
+    case DeformField::kDistance:
       return engine.distance_field(target.density, isovalue, target.mesh, options.distance_threshold_A, progress);
-    case FieldKind::kGvf: return engine.gvf_field(target.density, nullptr, isovalue, options.flow, progress, report);
-    case FieldKind::kGvf2:
+    case DeformField::kGvf: return engine.gvf_field(target.density, nullptr, isovalue, options.flow, progress, report);
+    case DeformField::kGvf2:
       return engine.gvf_field(target.density, source.density, isovalue, options.flow, progress, report);
   }
   throw Error(ErrorClass::kInternal, "a kind of field without a stage");

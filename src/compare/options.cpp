@@ -4,20 +4,20 @@
 
 namespace espdiff {
 
-FieldKind parse_field_kind(const std::string& text) {
-  if (text == "density") return FieldKind::kDensity;
-  if (text == "distance") return FieldKind::kDistance;
-  if (text == "gvf") return FieldKind::kGvf;
-  if (text == "gvf2") return FieldKind::kGvf2;
+DeformField parse_deform_field(const std::string& text) {
+  if (text == "density") return DeformField::kDensity;
+  if (text == "distance") return DeformField::kDistance;
+  if (text == "gvf") return DeformField::kGvf;
+  if (text == "gvf2") return DeformField::kGvf2;
   throw InputError("unknown field '" + text + "'; use density, distance, gvf or gvf2");
 }
 
-std::string to_string(FieldKind field) {
+std::string to_string(DeformField field) {
   switch (field) {
-    case FieldKind::kDensity: return "density";
-    case FieldKind::kDistance: return "distance";
-    case FieldKind::kGvf: return "gvf";
-    case FieldKind::kGvf2: return "gvf2";
+    case DeformField::kDensity: return "density";
+    case DeformField::kDistance: return "distance";
+    case DeformField::kGvf: return "gvf";
+    case DeformField::kGvf2: return "gvf2";
   }
   return "";
 }

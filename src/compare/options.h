@@ -6,6 +6,7 @@
 
 #include "base/input_options.h"
 #include "base/pairing.h"
+#include "base/quantity.h"
 #include "engine/deform_stage.h"
 #include "engine/morph_stage.h"
 
@@ -13,9 +14,9 @@ namespace espdiff {
 
 /// The field that moves the surface in `deform`: the target's density, the distance where the target is far, or
 /// gradient vector flow from the target or from both surfaces.
-enum class FieldKind { kDensity, kDistance, kGvf, kGvf2 };
-FieldKind parse_field_kind(const std::string& text);
-std::string to_string(FieldKind field);
+enum class DeformField { kDensity, kDistance, kGvf, kGvf2 };
+DeformField parse_deform_field(const std::string& text);
+std::string to_string(DeformField field);
 Interpolation parse_interpolation(const std::string& text);
 
 /// The mapping of the source's surface to the target's: by forces in a field of the target (the thesis), or by
@@ -44,7 +45,7 @@ struct CompareOptions {
   Method method = Method::kMorph;
   MorphOptions morph;
   double morph_max_edge = 1.4;  ///< in grid spacings; sets MorphOptions::max_edge_A
-  FieldKind field = FieldKind::kDistance;
+  DeformField field = DeformField::kDistance;
   double distance_threshold_A = 0.75;
   VectorFlowOptions flow;
   bool subdivide = false;  ///< split edges that deform has stretched, and iterate again; see map_by_deform.h
@@ -56,7 +57,8 @@ struct CompareOptions {
   /// How far outside the surfaces the potentials are read, each along its own surface's normal, Angstrom. The first one
   /// is what vertices and residues have; metrics are computed for all.
   std::vector<double> offsets_A{0};
-  std::vector<std::string> causes;  ///< readings whose causes are wanted; see causes/reading.h
+  std::vector<FieldRequest> fields;  ///< compared besides the potential
+  std::vector<std::string> causes;   ///< readings whose causes are wanted; see causes/reading.h
   /// Share of the source's surface, and of the target's, that has to be trusted; below it a result is not trustworthy.
   double required_share = 0.5;
   bool scan = false;    ///< for each of them, how a change of each residue's charges would shift it

@@ -2,26 +2,12 @@
 #include "compare/residue_rows.h"
 
 #include <cmath>
+#include <limits>
 
 #include "base/not_a_number.h"
 
 namespace espdiff {
 namespace {
-
-bool signs_differ(double a, double b) { return (a < 0 && b > 0) || (a > 0 && b < 0); }
-
-/// [vertex] a third of the area of each triangle that counts.
-template <typename Counts, typename Positions>
-std::vector<double> thirds(const MappedSurface& s, const Positions& p, const Counts& counts) {
-  std::vector<double> weight(s.positions.size(), 0.0);
-  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
-    if (!counts(t)) continue;
-    const Triangle& v = s.triangles[t];
-    const double area = 0.5 * norm(cross(p[v[1]] - p[v[0]], p[v[2]] - p[v[0]]));
-    for (const std::uint32_t c : v) weight[c] += area / 3;
-  }
-  return weight;
-}
 
 /// Slip and matched area of each residue, and which share of its surface is trusted.
 void add_slip_and_trust(const MappedSurface& s, std::vector<ResidueRow>& rows) {
@@ -29,9 +15,9 @@ void add_slip_and_trust(const MappedSurface& s, std::vector<ResidueRow>& rows) {
   const auto is_valid = [&](std::size_t t) {
     return s.corrupt[t] == 0 && (s.unmatched.empty() || s.unmatched[t] == 0);
   };
-  const std::vector<double> matched = thirds(s, s.positions, is_valid),
-                            own = thirds(s, s.source_positions, [](std::size_t) { return true; }),
-                            trusted = thirds(s, s.source_positions, is_trusted);
+  const std::vector<double> matched = corner_areas(s.positions, s.triangles, is_valid),
+                            own = corner_areas(s.source_positions, s.triangles, [](std::size_t) { return true; }),
+                            trusted = corner_areas(s.source_positions, s.triangles, is_trusted);
   std::vector<double> slip_area(rows.size(), 0.0), own_area(rows.size(), 0.0);
   for (std::size_t v = 0; v < matched.size(); ++v) {
     if (s.residue[v] < 0) continue;
@@ -55,33 +41,27 @@ void add_slip_and_trust(const MappedSurface& s, std::vector<ResidueRow>& rows) {
 }  // namespace
 
 std::vector<ResidueRow> residue_rows(const MappedSurface& s, std::size_t n_residues, bool has_potential) {
-  const std::vector<double> weight = thirds(s, s.positions, [&](std::size_t t) { return s.why[t] == 0; });
+  const std::vector<double> weight =
+      corner_areas(s.positions, s.triangles, [&](std::size_t t) { return s.why[t] == 0; });
   std::vector<ResidueRow> rows(n_residues);
   add_slip_and_trust(s, rows);
+  const std::vector<float> unknown(has_potential ? 0 : weight.size(), std::numeric_limits<float>::quiet_NaN());
+  const std::vector<ResidueMeans> means = residue_means(weight, s.residue, has_potential ? s.potential_source : unknown,
+                                                        has_potential ? s.potential_target : unknown, n_residues);
   for (std::size_t v = 0; v < weight.size(); ++v) {
     if (s.residue[v] < 0 || weight[v] <= 0) continue;
     ResidueRow& row = rows[static_cast<std::size_t>(s.residue[v])];
-    row.area_A2 += weight[v];
     row.mean_displacement_A += weight[v] * static_cast<double>(s.displacement[v]);
     row.mean_path_length_A += weight[v] * static_cast<double>(s.path_length[v]);
-    if (!has_potential) continue;
-    const double a = static_cast<double>(s.potential_source[v]), b = static_cast<double>(s.potential_target[v]);
-    row.mean_abs_difference += weight[v] * std::fabs(b - a);
-    row.mean_signed_difference += weight[v] * (b - a);
-    row.mean_source += weight[v] * a;
-    row.mean_target += weight[v] * b;
-    row.sign_change_area_fraction += signs_differ(a, b) ? weight[v] : 0;
   }
   for (std::size_t r = 0; r < rows.size(); ++r) {
     ResidueRow& row = rows[r];
+    static_cast<ResidueMeans&>(row) = means[r];
     row.residue = r;
+    if (!has_potential) row.sign_change_area_fraction = kNaN;
     const double scale = row.area_A2 > 0 ? 1 / row.area_A2 : kNaN;
     row.mean_displacement_A *= scale;
     row.mean_path_length_A *= scale;
-    for (double* value : {&row.mean_abs_difference, &row.mean_signed_difference, &row.mean_source, &row.mean_target,
-                          &row.sign_change_area_fraction}) {
-      *value *= has_potential ? scale : kNaN;
-    }
   }
   return rows;
 }

@@ -19,6 +19,7 @@
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/morph_stage.h"
+#include "field/field_result.h"
 
 namespace espdiff {
 
@@ -28,14 +29,8 @@ struct MapRecipe;
 
 /// Per-residue averages over the trusted mapped surface, source residues. Area-weighted; NaN if a residue has none. The
 /// slip is that of all matched surface, since what slipped is not trusted.
-struct ResidueRow {
+struct ResidueRow : ResidueMeans {
   std::size_t residue = 0;  ///< index into the source's residues
-  double area_A2 = 0;       ///< of trusted mapped surface
-  double mean_abs_difference = 0;
-  double mean_signed_difference = 0;  ///< target - source
-  double mean_source = 0;
-  double mean_target = 0;
-  double sign_change_area_fraction = 0;
   double mean_displacement_A = 0;
   double mean_path_length_A = 0;
   double mean_slip_A = 0;            ///< NaN if no atom of the residue has a partner
@@ -206,6 +201,7 @@ struct CompareResult {
   std::size_t n_vertices_subdivided = 0;  ///< added by deform with `subdivide`
   MorphReport morph_report;
   std::vector<ResidueRow> residues;
+  std::vector<FieldResult> fields;  ///< besides the potential, in the order of the request
   MappedSurface surface;
   UncoveredSurface uncovered;                           ///< of the target
   std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order; "total" last

@@ -14,6 +14,7 @@
 #include "compare/input_settings.h"
 #include "compare/options.h"
 #include "compare/readings.h"
+#include "field/field_kinds.h"
 
 namespace espdiff {
 namespace {
@@ -165,12 +166,13 @@ void add_mapping_settings(std::vector<Setting>& all) {
       "Also map back and report the round-trip error; doubles the time"));
   add_morph_settings(all);
   all.push_back(choice(
-      "field", kDeformGroup, {"density", "distance", "gvf", "gvf2"},
-      [](CompareOptions& o, const std::string& text) { o.field = parse_field_kind(text); },
+      "deform-field", kDeformGroup, {"density", "distance", "gvf", "gvf2"},
+      [](CompareOptions& o, const std::string& text) { o.field = parse_deform_field(text); },
       [](const CompareOptions& o) { return to_string(o.field); },
       "Field that moves the surface: density, distance (far from the target), or gradient vector flow of the target "
       "(gvf) "
       "or of both surfaces (gvf2)"));
+  all.back().file_key = "field";
   all.push_back(number(
       "distance-threshold", kDeformGroup, kNotNegative, [](auto& o) -> auto& { return o.distance_threshold_A; },
       "Distance beyond which the distance field is used, Angstrom"));
@@ -257,6 +259,31 @@ Setting offset_setting() {
   return offset;
 }
 
+/// A list of named fields; setting it again adds to it.
+Setting field_setting() {
+  Setting row{
+      "field",
+      "Fields",
+      SettingKind::kText,
+      {},
+      "Compare another quantity of the surfaces, too, such as hydrophobicity or b-factor: NAME, or NAME=KIND and "
+      "NAME=KIND:ARGUMENT under a name of one's own; `fields` lists the kinds. Several may be given",
+      false,
+      nullptr,
+      nullptr};
+  row.set = [](CompareOptions& o, const std::string& text) {
+    for (FieldRequest& request : parse_fields(text)) o.fields.push_back(std::move(request));
+  };
+  row.get = [](const CompareOptions& o) {
+    std::string text;
+    for (const FieldRequest& request : o.fields) text += (text.empty() ? "" : "|") + request.name + "=" + request.what;
+    return text;
+  };
+  row.is_list = row.is_named = true;
+  row.file_key = "fields";
+  return row;
+}
+
 /// The settings whose key in OUT.json ends with a unit.
 constexpr std::pair<const char*, const char*> kUnits[] = {{"grid-spacing", "A"},       {"max-step", "A"},
                                                           {"distance-threshold", "A"}, {"gvf-weight", "A2"},
@@ -305,6 +332,7 @@ std::vector<Setting> make_settings() {
   domains.get = [](const CompareOptions& o) { return o.domains; };
   all.push_back(domains);
   add_input_settings(all);
+  all.push_back(field_setting());
   all.push_back(offset_setting());
   all.push_back(of_surface(number(
       "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
@@ -351,6 +379,7 @@ Setting of_surface(Setting row) {
 }
 
 std::string Setting::key() const {
+  if (!file_key.empty()) return file_key;
   std::string key = unit.empty() ? name : name + "_" + unit;
   std::replace(key.begin(), key.end(), '-', '_');
   return key;
@@ -365,6 +394,11 @@ std::vector<std::pair<std::string, std::string>> setting_texts(const CompareOpti
   std::vector<std::pair<std::string, std::string>> texts;
   for (const Setting& setting : settings()) texts.emplace_back(setting.name, setting.get(options));
   return texts;
+}
+
+void refuse_fields(const CompareOptions& options, const std::string& what) {
+  if (!options.fields.empty())
+    throw InputError(option("field") + ": " + what + " has no fields besides the potential; compare pairs by them");
 }
 
 const Setting& find_setting(const std::string& name) {
@@ -407,6 +441,7 @@ CompareOptions make_options(const std::vector<std::pair<std::string, std::string
   for (const auto& [name, text] : given) find_setting(name).set(options, text);
   refuse_of_other_method(given, options.method);
   check_input_options(options.input);
+  check_fields(options.fields);
   check_readings(options);
   return options;
 }

@@ -31,6 +31,8 @@ struct Setting {
   bool is_file = false;   ///< the text names files, which are sought from the working folder
   bool is_named = false;  ///< a list of NAME=TEXT, parted by `|`; in Tcl {NAME TEXT ...}
 
+  std::string file_key = "";  ///< its key in OUT.json where that is not made of its name
+
   /// Its key in OUT.json: "grid_spacing_A".
   std::string key() const;
 };
@@ -73,6 +75,10 @@ const std::vector<Setting>& settings();
 
 /// Every setting's value as text, by name.
 std::vector<std::pair<std::string, std::string>> setting_texts(const CompareOptions& options);
+
+/// @param what of a run that compares potentials alone: "a matrix"
+/// @throws InputError if the options name fields
+void refuse_fields(const CompareOptions& options, const std::string& what);
 
 /// @throws InputError if there is none of that name; for an old name the message gives the new one
 const Setting& find_setting(const std::string& name);

@@ -24,6 +24,7 @@
 #include "compare/paired_residues.h"
 #include "compare/result.h"
 #include "compare/sample_outside.h"
+#include "compare/settings.h"
 #include "compare/side_maps.h"
 #include "compare/slip.h"
 #include "compare/stage_clock.h"
@@ -198,6 +199,7 @@ TemplateMapping::TemplateMapping(Engine& engine, const CompareInput& source, con
                                  const Progress& progress)
     : parts_(new Parts{engine, source, options, {}}) {
   check_options(options);
+  refuse_fields(options, "an ensemble");
   parts_->prepare(progress);
 }
 

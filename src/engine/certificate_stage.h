@@ -19,6 +19,7 @@ struct Metrics {
   double carbo_index = 0;                ///< <ab> / sqrt(<aa><bb>)
   double mean_displacement_A = 0;        ///< |mapped - source| in the common frame
   double mean_path_length_A = 0;         ///< mean path length of the vertices from source to mapped; NaN if not given
+  double correlation = 0;                ///< Pearson's; NaN where a side is constant
 };
 
 /// Distances of one surface to the other surface's triangles, area-weighted over the corners (a quarter) and centroids

@@ -21,6 +21,7 @@
 
 namespace espdiff {
 
+struct AtomValues;
 struct ComponentSummary;
 struct BulkZero;
 struct CoulombOptions;
@@ -324,6 +325,10 @@ class Engine {
 
   /// [vertex] index of the residue with the largest density at the vertex; -1 where no atom reaches.
   virtual std::vector<std::int32_t> vertex_residues(const MeshPtr& mesh, const AtomsPtr& atoms) = 0;
+  /// [vertex] values of atoms, carried to a surface as AtomValues::weight says. NaN where no atom with a value reaches,
+  /// and of a mean where most of the density is of atoms without a value. Equal values give exactly that value.
+  /// @throws InputError (numbers of widths and values, no atom with a value, values that no atom of positive width has)
+  virtual std::vector<float> atom_field(const MeshPtr& mesh, const AtomValues& atoms) = 0;
   /// [vertex] |a - b| for two meshes of one topology, Angstrom.
   virtual ScalarsPtr displacement(const MeshPtr& a, const MeshPtr& b) = 0;
 

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "io/file_kind.h"
+#include "io/read_ccp4.h"
 #include "io/read_cube.h"
 #include "io/read_dx.h"
 #include "io/read_input.h"
@@ -14,9 +15,8 @@ namespace espdiff {
 namespace {
 
 [[noreturn]] void refuse_as_grid(const std::string& path, FileKind kind) {
-  std::string remedy = "give an OpenDX, cube or VTI file";
+  std::string remedy = "give an OpenDX, cube, CCP4 or VTI file";
   switch (kind) {
-    case FileKind::kCcp4: remedy = "load it in VMD and save it as OpenDX (.dx)"; break;
     case FileKind::kVtkXml:
     case FileKind::kVtkLegacy: remedy = "save it as image data (.vti)"; break;
     case FileKind::kAtomRecords:
@@ -42,6 +42,7 @@ void refuse_array(const std::string& path, const GridOptions& options) {
 
 Grid parse_grid(FileContent file, FileKind kind, const GridOptions& options) {
   if (kind == FileKind::kVti) return read_vti(VtkXmlFile(std::move(file), kImageData), options);
+  if (kind == FileKind::kCcp4) return read_ccp4(file.path, file.content);
   unify_line_ends(file.content);
   return kind == FileKind::kDx ? read_dx(file.path, file.content) : read_cube(file.path, file.content);
 }
@@ -53,7 +54,7 @@ GridFile read_grid_file(const std::string& path, const GridOptions& options) {
   FileContent file = read_input(path, [&](std::string_view head) {
     kind = recognise(head);
     if (kind == FileKind::kVti) return;
-    if (kind != FileKind::kDx && kind != FileKind::kCube) refuse_as_grid(path, kind);
+    if (kind != FileKind::kDx && kind != FileKind::kCube && kind != FileKind::kCcp4) refuse_as_grid(path, kind);
     refuse_array(path, options);
   });
   GridFile read{{}, file.sha256};

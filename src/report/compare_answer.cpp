@@ -72,6 +72,15 @@ void print_main_numbers(std::ostream& out, const Record& record) {
                        number_with_unit(metric, record.value_of(metric), record.text("/potential_unit")),
                        beside(name, record));
   }
+  for (const auto& [name, json] : record.at("/fields").items()) {
+    const Record field(json);
+    const std::string unit = field.text("/unit");
+    print_brief_number(out, "Field " + name,
+                       formatted("%.4g", field.number("/mean_abs_difference")) + (unit.empty() ? "" : " " + unit),
+                       "mean absolute difference; signed " +
+                           formatted("%.4g", field.number("/mean_signed_difference")) + ", correlation " +
+                           formatted("%.3g", field.number("/correlation")));
+  }
   if (record.has("/region")) print_brief_part(out, "Region", record.at("/region"), record);
   for (const auto& [name, patch] : record.at("/fixed_patches").items())
     print_brief_part(out, "Patch " + name, patch, record);

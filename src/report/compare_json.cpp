@@ -6,6 +6,7 @@
 #include "align/protonation.h"
 #include "align/rigid_domains.h"
 #include "base/formats.h"
+#include "base/surface_parts.h"
 #include "compare/choose_motions.h"
 #include "compare/options.h"
 #include "compare/result.h"
@@ -52,6 +53,31 @@ void add_metrics(Json& json, const CompareResult& result) {
       json[pointer] = number_of(metric, value_of(metric, result));
     }
   }
+}
+
+/// Each field under its name: what it is, its metrics, and what is left out.
+/// @param part empty for the whole
+Json fields_json(const CompareResult& result, const std::string& part) {
+  Json json = Json::object();
+  for (const FieldResult& field : result.fields) {
+    Json& entry = json[field.quantity.name];
+    entry["label"] = field.quantity.label;
+    entry["unit"] = field.quantity.unit;
+    entry["signed"] = field.quantity.is_signed;
+    entry["kind"] = field.what;
+    entry["reference"] = field.reference;
+    Json all;
+    for (const Metric& metric : field_metrics(field.quantity)) {
+      if (!metric.has_result()) continue;
+      const std::string key = Json::json_pointer(metric.json_pointer()).back();
+      entry[key] = json_number(value_of(metric, result));
+      all[key] = json_number(value_over_all_triangles(metric, result));
+    }
+    entry["metrics_all_triangles"] = std::move(all);
+    if (!part.empty()) continue;
+    entry["n_vertices_without_value"] = {{"source", field.n_missing_source}, {"target", field.n_missing_target}};
+  }
+  return json;
 }
 
 Json warnings(const CompareResult& result, const OptionSpelling& spelling) {
@@ -208,12 +234,13 @@ Json chains(const CompareResult& result) {
 }
 
 /// A region's or patch's metrics and certificate, under the names of the whole's.
-Json part_json(const CompareResult& part, const OptionSpelling& spelling) {
+Json part_json(const CompareResult& part, const std::string& name, const OptionSpelling& spelling) {
   Json json;
   json["n_residues"] = part.residues.size();
   json["residues"] = Json::array();
   for (const ResidueRow& row : part.residues) json["residues"].push_back(row.residue);
   add_metrics(json, part);
+  json["fields"] = fields_json(part, name);
   json["by_offset"] = Json::array();
   for (const OffsetMetrics& at : part.by_offset) {
     Json entry{{"offset_A", json_number(at.offset_A)}};
@@ -255,10 +282,11 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   const WholeSurface whole = whole_surface(result);
   json["whole_surface"] = {
       {"mean_abs_difference", {{"estimate", json_number(whole.estimate)}, {"at_most", json_number(whole.at_most)}}}};
-  json["region"] = result.region == nullptr ? Json(nullptr) : part_json(*result.region, spelling);
+  json["fields"] = fields_json(result, "");
+  json["region"] = result.region == nullptr ? Json(nullptr) : part_json(*result.region, kRegionPart, spelling);
   json["fixed_patches"] = Json::object();
   for (const PatchResult& patch : result.patches) {
-    Json& entry = json["fixed_patches"][patch.name] = part_json(*patch.result, spelling);
+    Json& entry = json["fixed_patches"][patch.name] = part_json(*patch.result, patch.name, spelling);
     if (patch.placement != nullptr) entry["placement"] = placement_json(*patch.placement);
   }
   json["causes"] = result.causes == nullptr ? Json::array() : causes_json(*result.causes, potential_unit_text(result));

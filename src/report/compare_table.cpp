@@ -139,6 +139,28 @@ void print_metrics(std::ostream& out, const Record& record) {
   print_section(out, record, MetricSection::kShape);
 }
 
+/// A section for each field besides the potential.
+void print_fields(std::ostream& out, const Record& record) {
+  for (const auto& [name, json] : record.at("/fields").items()) {
+    const Record field(json);
+    const Quantity quantity{name, field.text("/label"), field.text("/unit"), field.at("/signed").get<bool>()};
+    print_heading(out, "Field " + name, {"trusted area", "all area"});
+    print_line(out, "Kind", quantity.label);
+    for (const Metric& metric : field_metrics(quantity)) {
+      if (!metric.has_result()) continue;
+      const std::string label = metric.label, key = Json::json_pointer(metric.json_pointer()).back();
+      print_row(out, label.substr(0, label.rfind(", ")), unit_of(metric, ""),
+                {formatted(metric, field.number("/" + key)),
+                 formatted(metric, field.number("/metrics_all_triangles/" + key))});
+    }
+    const std::size_t n_source = field.count("/n_vertices_without_value/source"),
+                      n_target = field.count("/n_vertices_without_value/target");
+    if (n_source + n_target > 0)
+      print_row(out, "Vertices without a value", "",
+                {"source " + std::to_string(n_source), "target " + std::to_string(n_target)});
+  }
+}
+
 /// The metrics by distance from the surfaces, unless that is 0 alone.
 void print_offsets(std::ostream& out, const Record& record) {
   const Json& offsets = record.at("/by_offset");
@@ -241,6 +263,12 @@ void print_part(std::ostream& out, const std::string& title, const Record& part,
                   {formatted(metric, part.value_of(metric))});
     }
   }
+  for (const auto& [name, json] : part.at("/fields").items()) {
+    const Record field(json);
+    print_row(out, "Field " + name, field.text("/unit"),
+              {"mean abs. " + formatted("%.4g", field.number("/mean_abs_difference")),
+               "signed " + formatted("%.4g", field.number("/mean_signed_difference"))});
+  }
   print_row(out, "Unmatched area", "",
             {"source " + share_of(part.number("/certificate/no_counterpart_area_fraction/source")),
              "target " + share_of(part.number("/certificate/no_counterpart_area_fraction/target"))});
@@ -288,6 +316,7 @@ void print_table(std::ostream& out, const Json& json) {
   print_superposition(out, record);
   print_metrics(out, record);
   print_offsets(out, record);
+  print_fields(out, record);
   print_surfaces(out, record);
   print_certificate(out, record);
   if (record.has("/region")) print_part(out, "Region", Record(record.at("/region")), record);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <map>
 #include <mutex>
 
@@ -308,24 +309,90 @@ std::vector<Metric> make_metrics() {
   };
 }
 
+/// Guards the tables of parts and of fields, and their texts.
+std::mutex& one_at_a_time() {
+  static std::mutex guard;
+  return guard;
+}
+
 std::vector<Metric>& table() {
   static std::vector<Metric> all = make_metrics();
   return all;
 }
 
+/// The rows of every field; the potential's have other words. Sign change and Hodgkin's index come last.
+std::vector<Metric> field_rows(bool is_signed) {
+  using S = MetricSection;
+  using U = MetricUnit;
+  constexpr unsigned kNowhere = 0, kBoth = kInSeries | kInMatrix;
+  std::vector<Metric> rows = {
+      {"area_A2", "Area with values", S::kPotential, U::kSquareAngstrom, kNowhere,
+       "Area of the mapped surface on which the numbers rest", &Metrics::area_A2},
+      {"mean_abs_difference",
+       "Mean absolute difference",
+       S::kPotential,
+       U::kPotential,
+       kBoth,
+       "Mean absolute difference of the field at corresponding points, weighted by area",
+       {&Metrics::mean_abs_difference, &ResidueRow::mean_abs_difference}},
+      {"rms_difference", "RMS difference", S::kPotential, U::kPotential, kBoth,
+       "Root of the mean squared difference of the field", &Metrics::rms_difference},
+      {"mean_signed_difference",
+       "Mean signed difference",
+       S::kPotential,
+       U::kPotential,
+       kBoth | kAntisymmetric,
+       "Mean of target - source, with its sign",
+       {&Metrics::mean_signed_difference, &ResidueRow::mean_signed_difference}},
+      {"correlation", "Correlation", S::kPotential, U::kIndex, kBoth,
+       "Pearson's correlation of the field's values at corresponding points", &Metrics::correlation},
+      {"mean_source", "Mean, source", S::kPotential, U::kPotential, kNowhere, "Mean on the source's surface",
+       &ResidueRow::mean_source},
+      {"mean_target", "Mean, target", S::kPotential, U::kPotential, kNowhere,
+       "Mean at the corresponding points of the target's surface", &ResidueRow::mean_target}};
+  if (!is_signed) return rows;
+  rows.push_back({"sign_change_area_fraction",
+                  "Area whose sign changes",
+                  S::kPotential,
+                  U::kFraction,
+                  kBoth,
+                  "Share of the area where the field has another sign on the target",
+                  {&Metrics::sign_change_area_fraction, &ResidueRow::sign_change_area_fraction}});
+  rows.push_back({"hodgkin_index", "Hodgkin index", S::kPotential, U::kIndex, kBoth,
+                  "Similarity of the field: 1 same, 0 unrelated, -1 opposite", &Metrics::hodgkin_index});
+  return rows;
+}
+
+/// Texts that names of metrics point to, which must stay where they are.
+const char* kept(const std::string& text) {
+  static std::deque<std::string> texts;
+  return texts.emplace_back(text).c_str();
+}
+
+std::vector<Metric> make_field_metrics(const Quantity& field, const std::string& part) {
+  std::vector<Metric> all = field_rows(field.is_signed);
+  for (Metric& metric : all) {
+    metric.json = kept(field_pointer(field.name, part) + "/" + metric.name);
+    metric.name = kept((part.empty() ? "" : part + "_") + field.name + "_" + metric.name);
+    metric.label = kept(std::string(metric.label) + ", " + field.name + (part.empty() ? "" : ", " + part));
+    metric.part = kept(part);
+    metric.field = kept(field.name);
+    metric.field_unit = kept(field.unit);
+  }
+  return all;
+}
+
 std::vector<Metric> make_part_metrics(const std::string& part) {
-  static std::deque<std::string> texts;  // of the names, which must stay where they are
-  const auto keep = [](const std::string& text) { return texts.emplace_back(text).c_str(); };
   CompareResult scratch;
   scratch.certificate.not_checked = unchecked_in_parts();
   std::vector<Metric> all;
   for (const Metric& metric : metrics()) {
     if (!metric.has_result() || metric.section == MetricSection::kMapping || is_unchecked(metric, scratch)) continue;
     Metric of_part = metric;
-    of_part.name = keep(part + "_" + metric.name);
-    of_part.label = keep(std::string(metric.label) + ", " + part);
-    of_part.json = keep(part_pointer(part) + metric.json_pointer());
-    of_part.part = keep(part);
+    of_part.name = kept(part + "_" + metric.name);
+    of_part.label = kept(std::string(metric.label) + ", " + part);
+    of_part.json = kept(part_pointer(part) + metric.json_pointer());
+    of_part.part = kept(part);
     all.push_back(of_part);
   }
   return all;
@@ -342,11 +409,38 @@ void add_metric(const Metric& metric) {
 }
 
 const std::vector<Metric>& part_metrics(const std::string& part) {
-  static std::mutex one_at_a_time;
   static std::map<std::string, std::vector<Metric>> known;
-  const std::lock_guard<std::mutex> lock(one_at_a_time);
+  const std::lock_guard<std::mutex> lock(one_at_a_time());
   const auto found = known.find(part);
   return found != known.end() ? found->second : known.emplace(part, make_part_metrics(part)).first->second;
+}
+
+const std::vector<Metric>& field_metrics(const Quantity& field, const std::string& part) {
+  static std::map<std::string, std::vector<Metric>> known;
+  const std::lock_guard<std::mutex> lock(one_at_a_time());
+  const std::string key = field.name + '\n' + field.unit + '\n' + (field.is_signed ? "1" : "0") + '\n' + part;
+  const auto found = known.find(key);
+  return found != known.end() ? found->second : known.emplace(key, make_field_metrics(field, part)).first->second;
+}
+
+std::string field_pointer(const std::string& field, const std::string& part) {
+  return (part.empty() ? "" : part_pointer(part)) + "/fields/" + field;
+}
+
+std::vector<Metric> residue_metrics(const CompareResult& result) {
+  std::vector<Metric> all;
+  const auto add = [&all](const std::vector<Metric>& more) {
+    std::copy_if(more.begin(), more.end(), std::back_inserter(all), [](const Metric& m) { return m.has_residues(); });
+  };
+  add(metrics());
+  for (const FieldResult& field : result.fields) add(field_metrics(field.quantity));
+  return all;
+}
+
+const FieldResult* field_of(const CompareResult& result, const std::string& name) {
+  const auto found = std::find_if(result.fields.begin(), result.fields.end(),
+                                  [&](const FieldResult& field) { return field.quantity.name == name; });
+  return found == result.fields.end() ? nullptr : &*found;
 }
 
 std::string part_pointer(const std::string& part) {
@@ -367,16 +461,29 @@ double value_of(const Metric& metric, const CompareResult& result) {
     whole.part = "";
     return value_of(whole, *part);
   }
+  if (*metric.field != '\0') {
+    const FieldResult* const field = field_of(result, metric.field);
+    return field == nullptr ? kNaN : field->metrics.*metric.source.of_area;
+  }
   if (metric.source.of_result != nullptr) return metric.source.of_result(result);
   return counted_metrics(result).*metric.source.of_area;
 }
 
 double value_over_all_triangles(const Metric& metric, const CompareResult& result) {
+  if (*metric.field != '\0') {
+    const FieldResult* const field = field_of(result, metric.field);
+    return field == nullptr ? kNaN : field->metrics_all.*metric.source.of_area;
+  }
   if (metric.source.of_area == nullptr || !result.has_potential) return kNaN;
   return result.metrics_all.*metric.source.of_area;
 }
 
 double value_of(const Metric& metric, const CompareResult& result, const ResidueRow& row) {
+  if (*metric.field != '\0') {
+    const FieldResult* const field = field_of(result, metric.field);
+    if (field == nullptr || row.residue >= field->residues.size()) return kNaN;
+    return field->residues[row.residue].*static_cast<double ResidueMeans::*>(metric.source.of_residue);
+  }
   if (metric.section == MetricSection::kPotential && !result.has_potential) return kNaN;
   return row.*metric.source.of_residue;
 }
@@ -390,7 +497,7 @@ bool is_unchecked(const Metric& metric, const CompareResult& result) {
 
 std::string unit_of(const Metric& metric, const std::string& potential_unit) {
   switch (metric.unit) {
-    case MetricUnit::kPotential: return potential_unit;
+    case MetricUnit::kPotential: return *metric.field != '\0' ? metric.field_unit : potential_unit;
     case MetricUnit::kAngstrom: return "A";
     case MetricUnit::kSquareAngstrom: return "A^2";
     case MetricUnit::kFraction:
@@ -417,7 +524,7 @@ std::string formatted(const Metric& metric, double value) {
 
 Metrics counted_metrics(const CompareResult& result) {
   if (result.has_potential) return result.metrics;
-  Metrics counted{0, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, 0, 0};
+  Metrics counted{0, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, 0, 0, kNaN};
   for (const ResidueRow& row : result.residues) {
     if (!(row.area_A2 > 0)) continue;
     counted.area_A2 += row.area_A2;

@@ -9,6 +9,8 @@
 namespace espdiff {
 
 struct CompareResult;
+struct FieldResult;
+struct Quantity;
 struct ResidueRow;
 
 /// What the values of a metric are in.
@@ -54,7 +56,9 @@ struct Metric {
   /// Metrics that follow one another with the same line share one in the printed table, told apart by `word`.
   const char* line = "";
   const char* word = "";
-  const char* part = "";  ///< the region (kRegionPart) or patch whose value it is; empty for the whole
+  const char* part = "";        ///< the region (kRegionPart) or patch whose value it is; empty for the whole
+  const char* field = "";       ///< the field whose value it is; empty for the potential
+  const char* field_unit = "";  ///< of that field
 
   bool has_result() const { return source.of_result != nullptr || source.of_area != nullptr; }
   bool has_residues() const { return source.of_residue != nullptr; }
@@ -71,6 +75,16 @@ void add_metric(const Metric& metric);
 const std::vector<Metric>& part_metrics(const std::string& part);
 /// "/region", or "/fixed_patches/PATCH".
 std::string part_pointer(const std::string& part);
+/// What a field has of the metrics, of the whole or of a part: the differences, their correlation, and where the
+/// field's sign means something, the area whose sign changes and Hodgkin's index. Named `FIELD_NAME` and
+/// `PART_FIELD_NAME`; in OUT.json under field_pointer().
+const std::vector<Metric>& field_metrics(const Quantity& field, const std::string& part = "");
+/// "/fields/FIELD", or of a part "/region/fields/FIELD".
+std::string field_pointer(const std::string& field, const std::string& part = "");
+/// What the residues of a result have: metrics, then those of its fields.
+std::vector<Metric> residue_metrics(const CompareResult& result);
+/// Null where it was not compared.
+const FieldResult* field_of(const CompareResult& result, const std::string& name);
 /// Null when there is none of that name.
 const Metric* find_metric_or_null(const std::string& name);
 

@@ -46,11 +46,12 @@ std::vector<double> residue_contributions(const CompareResult& result) {
   return values;
 }
 
-const Metric& find_quantity(const std::string& name) {
-  const Metric* const metric = find_metric_or_null(name);
-  if (metric != nullptr && metric->has_residues()) return *metric;
-  std::string list;
-  for (const std::string& there : residue_quantities()) list += (list.empty() ? "" : ", ") + there;
+Metric find_quantity(const std::string& name, const CompareResult& result) {
+  std::string list = std::string(kShare) + ", " + kContribution;
+  for (const Metric& metric : residue_metrics(result)) {
+    if (metric.name == name) return metric;
+    list += ", " + std::string(metric.name);
+  }
   throw InputError("residues have no quantity '" + name + "'; there are: " + list);
 }
 
@@ -58,14 +59,18 @@ const Metric& find_quantity(const std::string& name) {
 
 std::vector<std::string> residue_quantities() {
   std::vector<std::string> names{kShare, kContribution};
-  for (const Metric& metric : metrics()) {
-    if (metric.has_residues()) names.emplace_back(metric.name);
-  }
+  for (const Metric& metric : residue_metrics({})) names.emplace_back(metric.name);
   return names;
 }
 
-void require_residue_quantity(const std::string& name) {
-  if (name != kShare && name != kContribution) find_quantity(name);
+void require_residue_quantity(const std::string& name, const std::vector<FieldRequest>& fields) {
+  if (name == kShare || name == kContribution) return;
+  CompareResult like;
+  for (const FieldRequest& request : fields) {
+    like.fields.emplace_back().quantity.name = request.name;
+    like.fields.back().quantity.is_signed = true;
+  }
+  find_quantity(name, like);
 }
 
 std::string usual_residue_quantity(const CompareResult& result) {
@@ -75,8 +80,8 @@ std::string usual_residue_quantity(const CompareResult& result) {
 std::vector<double> residue_values(const CompareResult& result, const std::string& quantity) {
   if (quantity == kShare) return residue_shares(result);
   if (quantity == kContribution) return residue_contributions(result);
-  const Metric& metric = find_quantity(quantity);
-  if (metric.section == MetricSection::kPotential && !result.has_potential)
+  const Metric metric = find_quantity(quantity, result);
+  if (metric.section == MetricSection::kPotential && *metric.field == '\0' && !result.has_potential)
     throw InputError(quantity + " needs potentials, and shapes alone were compared; take mean_displacement_A");
   std::vector<double> values;
   for (const ResidueRow& row : result.residues) values.push_back(value_of(metric, result, row));
@@ -86,7 +91,7 @@ std::vector<double> residue_values(const CompareResult& result, const std::strin
 std::string residue_unit(const CompareResult& result, const std::string& quantity) {
   if (quantity == kShare) return "";
   if (quantity == kContribution) return potential_unit_text(result);
-  return unit_of(find_quantity(quantity), potential_unit_text(result));
+  return unit_of(find_quantity(quantity, result), potential_unit_text(result));
 }
 
 void write_residue_pdb(AtomicFile& file, const Molecule& source, const CompareResult& result,

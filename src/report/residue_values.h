@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/quantity.h"
 #include "base/types.h"
 
 namespace espdiff {
@@ -18,8 +19,9 @@ constexpr const char* kContribution = "contribution";
 /// `contribution`, and the names of the metrics that it has.
 std::vector<std::string> residue_quantities();
 
+/// @param fields that are compared, whose quantities there are besides: hydrophobicity_mean_source
 /// @throws InputError with those there are
-void require_residue_quantity(const std::string& name);
+void require_residue_quantity(const std::string& name, const std::vector<FieldRequest>& fields = {});
 /// mean_abs_difference, or without potentials mean_displacement_A.
 std::string usual_residue_quantity(const CompareResult& result);
 

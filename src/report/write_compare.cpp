@@ -62,10 +62,11 @@ struct SurfaceArrays::Derived {
   DerivedArrays of_vertices;
   std::vector<float> unknown_slip;
   std::vector<std::uint8_t> matched_everywhere;
+  std::deque<std::vector<float>> field_differences;
 };
 
 SurfaceArrays::SurfaceArrays(const Molecule& source, const CompareResult& result, const std::string& version)
-    : derived_(new Derived{derive(source, result), {}, {}}) {
+    : derived_(new Derived{derive(source, result), {}, {}, {}}) {
   const MappedSurface& s = result.surface;
   const DerivedArrays& derived = derived_->of_vertices;
   if (s.slip.empty()) derived_->unknown_slip.assign(s.positions.size(), std::numeric_limits<float>::quiet_NaN());
@@ -93,6 +94,17 @@ SurfaceArrays::SurfaceArrays(const Molecule& source, const CompareResult& result
     const std::string label = potential_label(result);
     if (!label.empty()) file.texts.emplace_back("potential", label);
   }
+  for (const FieldResult& field : result.fields) {
+    const std::string& name = field.quantity.name;
+    std::vector<float>& difference = derived_->field_differences.emplace_back();
+    for (std::size_t v = 0; v < field.source.size(); ++v) difference.push_back(field.target[v] - field.source[v]);
+    file.point_arrays.emplace_back(name + "_source", field.source);
+    file.point_arrays.emplace_back(name + "_target", field.target);
+    file.point_arrays.emplace_back(name + "_difference", difference);
+    file.texts.emplace_back(name + "_label", field.quantity.label);
+    file.texts.emplace_back(name + "_signed", field.quantity.is_signed ? "1" : "0");
+    if (!field.quantity.unit.empty()) file.texts.emplace_back(name + "_unit", field.quantity.unit);
+  }
   file.cell_arrays = {{"corrupt", s.corrupt},
                       {"no_counterpart", s.unmatched.empty() ? derived_->matched_everywhere : s.unmatched},
                       {"why", s.why}};
@@ -115,9 +127,8 @@ std::string column_of(const Metric& metric, const std::string& potential_unit) {
 
 void write_residue_file(std::ostream& out, const Molecule& source, const CompareResult& result) {
   std::vector<std::string> columns = {"chain", "residue_number", "insertion_code", "residue_name"};
-  for (const Metric& metric : metrics()) {
-    if (metric.has_residues()) columns.push_back(column_of(metric, potential_unit_text(result)));
-  }
+  const std::vector<Metric> of_residues = residue_metrics(result);
+  for (const Metric& metric : of_residues) columns.push_back(column_of(metric, potential_unit_text(result)));
   std::vector<std::set<std::size_t>> parts;
   for (const std::string& part : part_names(result)) {
     columns.push_back(part == kRegionPart ? part : "patch_" + part);
@@ -129,9 +140,7 @@ void write_residue_file(std::ostream& out, const Molecule& source, const Compare
     const Residue& residue = source.residues.at(row.residue);
     const std::string insertion = residue.insertion_code == ' ' ? "" : std::string(1, residue.insertion_code);
     std::vector<std::string> cells = {residue.chain, std::to_string(residue.number), insertion, residue.name};
-    for (const Metric& metric : metrics()) {
-      if (metric.has_residues()) cells.push_back(csv_number(value_of(metric, result, row)));
-    }
+    for (const Metric& metric : of_residues) cells.push_back(csv_number(value_of(metric, result, row)));
     for (const std::set<std::size_t>& part : parts) cells.emplace_back(part.count(row.residue) > 0 ? "1" : "0");
     write_csv_row(out, cells);
   }

@@ -68,8 +68,11 @@ std::vector<std::string> render_array_names() {
 
 const char* array_name(RenderArray array) { return describe(array).name; }
 
-std::string legend_title(RenderArray array, const std::string& unit) {
-  const std::string title = describe(array).title;
+std::string legend_title(RenderArray array, const std::string& unit, const std::string& quantity) {
+  std::string title = describe(array).title;
+  const std::string potential = "potential";
+  const std::size_t at = title.find(potential);
+  if (at != std::string::npos) title.replace(at, potential.size(), quantity);
   const bool has_unit = array != RenderArray::kSign && array != RenderArray::kResidue && array != RenderArray::kPlain;
   if (!has_unit) return title;
   const std::string shown = is_length(array) ? "\xC3\x85" : unit;
@@ -84,8 +87,8 @@ ColourScale::ColourScale(RenderArray array, const std::vector<float>& values, do
       }()) {}
 
 ColourScale::ColourScale(RenderArray array, const std::vector<float>& values, const ScaleRange& range,
-                         const DivergingMap& map)
-    : array_(array), map_(map) {
+                         const DivergingMap& map, bool is_signed)
+    : array_(array), map_(map), is_signed_(is_signed) {
   check(range);
   if (!has_bar()) return;
   const auto is_missing = [](float value) { return !std::isfinite(value); };
@@ -113,7 +116,7 @@ void ColourScale::set_ends(const std::vector<float>& values, const ScaleRange& r
   low_ = is_sequential() ? 0 : -high_;
 }
 
-double ColourScale::hue() const { return array_ == RenderArray::kMagnitude ? kOrangeHue : kGreenHue; }
+double ColourScale::hue() const { return is_length(array_) ? kGreenHue : kOrangeHue; }
 
 Rgb ColourScale::colour(float value) const {
   if (array_ == RenderArray::kPlain) return kPlainColour;

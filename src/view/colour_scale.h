@@ -34,7 +34,8 @@ std::vector<std::string> render_array_names();
 const char* array_name(RenderArray array);
 
 /// The legend's title, such as "potential difference, target - source (kT/e)"; without parentheses for an empty unit.
-std::string legend_title(RenderArray array, const std::string& unit);
+/// @param quantity in the place of the potential
+std::string legend_title(RenderArray array, const std::string& unit, const std::string& quantity = "potential");
 
 /// How the ends of a scale are chosen.
 struct ScaleRange {
@@ -51,8 +52,9 @@ class ColourScale {
   /// @param values [vertex] of the array; NaN allowed
   /// @throws InputError if the range is invalid (not finite, negative, empty, a percentile out of bounds) or no value
   /// is finite
+  /// @param is_signed of the quantity; the values of one that is not are drawn from 0 on in one hue
   ColourScale(RenderArray array, const std::vector<float>& values, const ScaleRange& range,
-              const DivergingMap& map = kRedBlue);
+              const DivergingMap& map = kRedBlue, bool is_signed = true);
   ColourScale(RenderArray array, const std::vector<float>& values, double limit);
 
   RenderArray array() const { return array_; }
@@ -71,11 +73,15 @@ class ColourScale {
 
  private:
   double hue() const;
-  bool is_sequential() const { return array_ == RenderArray::kMagnitude || is_length(array_); }
+  bool is_sequential() const {
+    const bool is_one_side = array_ == RenderArray::kSource || array_ == RenderArray::kTarget;
+    return array_ == RenderArray::kMagnitude || is_length(array_) || (is_one_side && !is_signed_);
+  }
   void set_ends(const std::vector<float>& values, const ScaleRange& range);
 
   RenderArray array_;
   DivergingMap map_;
+  bool is_signed_ = true;
   double low_ = 0, high_ = 1;
   bool exceeds_low_ = false, exceeds_high_ = false, has_missing_ = false;
 };

@@ -82,7 +82,7 @@ void ComparisonScene::choose_scales(const Scene& scene) {
                           is_asked_for ? scene.range
                           : shares     ? of_potentials
                                        : automatic,
-                          map);
+                          map, files_.surface.is_signed);
     }
   }
   std::optional<ColourScale> map_scale;

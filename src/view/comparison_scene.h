@@ -54,7 +54,7 @@ class ComparisonScene {
   const std::string& unit() const { return unit_; }
   const RunRecord& record() const { return files_.record; }
   /// Whether potentials are looked up at every pixel.
-  bool per_fragment() const { return files_.maps.complete() && !scene_.per_vertex; }
+  bool per_fragment() const { return files_.maps.complete() && !scene_.per_vertex && scene_.field.empty(); }
   const SurfaceGeometry& geometry() const { return geometry_; }
   /// The causes that are drawn.
   const std::optional<ReadingCauses>& causes() const { return files_.causes; }

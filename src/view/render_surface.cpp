@@ -36,6 +36,7 @@ std::string description(const ComparisonScene& scene) {
     const std::string one = described(scene.scale(panel.sheets.front().array), scene.unit());
     if (text.find(one) == std::string::npos) text += (text.empty() ? "" : "; ") + one;
   }
+  if (!scene.scene().field.empty()) return "field " + scene.scene().field + ": " + text;
   if (shows_potentials(scene.scene()))
     text +=
         scene.per_fragment() ? "; potentials of the maps at every pixel" : "; potentials interpolated between vertices";
@@ -59,7 +60,7 @@ std::string inputs(const RunRecord& record) {
 
 std::vector<std::string> notes_on(const ComparisonFiles& files, const Scene& scene) {
   std::vector<std::string> notes;
-  if (shows_potentials(scene) && !scene.per_vertex && !files.maps.complete()) {
+  if (shows_potentials(scene) && !scene.per_vertex && scene.field.empty() && !files.maps.complete()) {
     notes.push_back("potentials are interpolated between vertices, not looked up in the maps: " + files.maps.why_not);
   }
   if (files.record.found && !files.record.trustworthy) {

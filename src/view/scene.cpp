@@ -119,6 +119,7 @@ Entry entry(const char* key, At at) {
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> all = {
       ESPDIFF_ENTRY_OF("colour_by", array),
+      ESPDIFF_ENTRY_OF("field", field),
       ESPDIFF_ENTRY_OF("range", range),
       ESPDIFF_ENTRY_OF("percentile", range.percentile),
       ESPDIFF_ENTRY_OF("potential_range", potential_limit),
@@ -258,6 +259,8 @@ void check(const Scene& s) {
   require(s.offsets_A.empty() || s.layout == Layout::kTurned, "offset surfaces need the layout turned");
   require(s.offsets_A.empty() || !s.per_vertex,
           "offset surfaces need the maps; leave " + option("per-vertex") + " out");
+  require(s.offsets_A.empty() || s.field.empty(),
+          "offset surfaces are of the potential; leave " + option("field") + " out");
   require(!s.slice || is_share(*s.slice), "a slice lies at 0 (front) to 1 (back)");
   if (s.camera) {
     require(s.camera->half_height_A > 0 && norm(cross(s.camera->up, s.camera->toward_viewer)) > 1e-6,

@@ -24,6 +24,7 @@ struct CameraView {
 
 struct Scene {
   RenderArray array = RenderArray::kDifference;
+  std::string field;  ///< drawn in the place of the potential; empty for the potential
   ScaleRange range;
   /// > 0: end of the scale of both potentials in the layout `linked`; 0: automatic, over both
   double potential_limit = 0;

@@ -27,13 +27,15 @@ constexpr double kCaptionShare = 0.045;
 constexpr Rgb kPartColour{250, 240, 170}, kWarningColour{255, 196, 120};
 
 /// Short titles for scales side by side.
-std::string short_title(RenderArray array, const std::string& unit) {
+std::string short_title(RenderArray array, const ComparisonScene& scene) {
+  const std::string& unit = scene.unit();
+  const std::string& quantity = scene.surface_file().quantity;
   const std::string in_unit = unit.empty() ? "" : " (" + unit + ")";
-  if (array == RenderArray::kSource || array == RenderArray::kTarget) return "potential" + in_unit;
+  if (array == RenderArray::kSource || array == RenderArray::kTarget) return quantity + in_unit;
   if (array == RenderArray::kDifference) return "target \xE2\x88\x92 source" + in_unit;
   if (array == RenderArray::kMagnitude) return "|target \xE2\x88\x92 source|" + in_unit;
   if (array == RenderArray::kSign) return "sign";
-  return legend_title(array, unit);
+  return legend_title(array, unit, quantity);
 }
 
 /// The groups of an ensemble instead of source and target.
@@ -79,19 +81,18 @@ void add_scales(Legend& legend, const ComparisonScene& scene, const Paper& paper
   };
   const ColourScale& compared = scene.scale(scene.panels().back().sheets.front().array);
   if (!scene.scene().surface) {
-    if (scene.map_scale() != nullptr)
-      add(*scene.map_scale(), 0.31, 0.66, short_title(RenderArray::kTarget, scene.unit()));
+    if (scene.map_scale() != nullptr) add(*scene.map_scale(), 0.31, 0.66, short_title(RenderArray::kTarget, scene));
     return;
   }
   if (const ColourScale* potential = second_scale(scene)) {
-    add(*potential, 0.22, 0.46, short_title(potential->array(), scene.unit()));
-    add(compared, 0.54, 0.76, short_title(compared.array(), scene.unit()));
+    add(*potential, 0.22, 0.46, short_title(potential->array(), scene));
+    add(compared, 0.54, 0.76, short_title(compared.array(), scene));
     return;
   }
   const bool split = scene.scene().layout == Layout::kSplit;
   add(compared, 0.31, 0.66,
-      split ? short_title(compared.array(), scene.unit())
-            : with_groups(legend_title(compared.array(), scene.unit()), scene));
+      split ? short_title(compared.array(), scene)
+            : with_groups(legend_title(compared.array(), scene.unit(), scene.surface_file().quantity), scene));
 }
 
 void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) {

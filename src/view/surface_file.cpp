@@ -122,6 +122,33 @@ void read_arrays(SurfaceFile& file, const VtpContent& surface) {
   file.array_names = names_of(surface);
 }
 
+/// Puts a field in the place of the potential.
+void take_field(SurfaceFile& file, const VtpContent& surface, const std::string& field) {
+  const std::string label = text_of(surface, (field + "_label").c_str());
+  file.potential_source = numbers_of(surface, (field + "_source").c_str());
+  file.potential_target = numbers_of(surface, (field + "_target").c_str());
+  file.potential_difference = numbers_of(surface, (field + "_difference").c_str());
+  if (label.empty() || file.potential_difference.empty()) {
+    std::string names;
+    const std::string ending = "_label";
+    for (const auto& [key, text] : surface.texts) {
+      if (key.size() > ending.size() && key.compare(key.size() - ending.size(), ending.size(), ending) == 0)
+        names += (names.empty() ? "" : ", ") + key.substr(0, key.size() - ending.size());
+    }
+    throw InputError(file.path + ": has no field '" + field + "'; it has " +
+                     (names.empty() ? "none: compare with " + option("field", "NAME") : Message(names)));
+  }
+  file.quantity = label;
+  file.potential_unit = text_of(surface, (field + "_unit").c_str());
+  file.is_signed = text_of(surface, (field + "_signed").c_str()) != "0";
+  file.sign_change.clear();
+  if (!file.is_signed) return;
+  for (std::size_t v = 0; v < file.potential_source.size(); ++v) {
+    const float a = file.potential_source[v], b = file.potential_target[v];
+    file.sign_change.push_back(std::isnan(a + b) ? a + b : (a < 0 && b > 0) || (a > 0 && b < 0) ? 1.0F : 0.0F);
+  }
+}
+
 }  // namespace
 
 const std::vector<float>& SurfaceFile::uncertainty() const {
@@ -153,7 +180,7 @@ const std::vector<float>& SurfaceFile::values(RenderArray array) const {
   return pick();
 }
 
-SurfaceFile read_surface_file(const std::string& path) {
+SurfaceFile read_surface_file(const std::string& path, const std::string& field) {
   check_exists(path);
   VtpContent surface = read_vtp(read_input(path, [&](std::string_view head) {
     if (head.find("<VTKFile") == std::string::npos || head.find("PolyData") == std::string::npos)
@@ -164,6 +191,7 @@ SurfaceFile read_surface_file(const std::string& path) {
   SurfaceFile file;
   file.path = path;
   read_arrays(file, surface);
+  if (!field.empty()) take_field(file, surface, field);
   file.triangles = std::move(surface.triangles);
   file.positions = std::move(surface.positions);
   const auto& lost = file.unmatched;

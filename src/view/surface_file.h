@@ -33,6 +33,8 @@ struct SurfaceFile {
   std::vector<float> residue_index;        ///< of the source's residues; negative: none
   std::vector<float> residue_number;       ///< as numbered in the structure file
   std::string potential_unit;              ///< field data `potential_unit`
+  std::string quantity = "potential";      ///< what the potentials are; of another field its label
+  bool is_signed = true;                   ///< whether its sign means something
   std::string written_by;                  ///< field data `written_by`
   std::string array_names;                 ///< of the point arrays in the file, for messages
 
@@ -46,7 +48,9 @@ struct SurfaceFile {
 };
 
 /// Reads a VTK XML PolyData file (.vtp).
+/// @param field whose values stand in the place of the potentials; empty for the potential
+/// @throws InputError (no such field, with those there are)
 /// @throws IoError (missing, a directory), FormatError (not a .vtp file, truncated, no triangles, none matched)
-SurfaceFile read_surface_file(const std::string& path);
+SurfaceFile read_surface_file(const std::string& path, const std::string& field = "");
 
 }  // namespace espdiff

@@ -19,9 +19,9 @@ TEST_CASE("help and version exit 0 and say what there is") {
     CHECK(contains(outcome.out, "Usage: espdiff " + std::string(verb)));
   }
   const Outcome compare = run_espdiff("compare --help-all");
-  for (const char* option :
-       {"--source-map", "--target-map", "--potential", "--method", "--field", "--align", "--grid-spacing",
-        "--radius-scale", "--isovalue", "--device", "--threads", "--sigma", "--mu", "--rho", "--max-iterations"}) {
+  for (const char* option : {"--source-map", "--target-map", "--potential", "--method", "--deform-field", "--field",
+                             "--align", "--grid-spacing", "--radius-scale", "--isovalue", "--device", "--threads",
+                             "--sigma", "--mu", "--rho", "--max-iterations"}) {
     CHECK_MESSAGE(contains(compare.out, option), option);
   }
   const Outcome brief = run_espdiff("compare --help");

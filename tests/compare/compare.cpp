@@ -174,7 +174,7 @@ TEST_CASE("a real pair gives the same bits for 1, 2 and 4 threads, and again") {
     b.molecule = espdiff::read_structure(*other);
     for (Side* side : {&a, &b}) side->map = potential_map(side->molecule, 3.0);
   }
-  for (const auto field : {espdiff::FieldKind::kDistance, espdiff::FieldKind::kDensity}) {
+  for (const auto field : {espdiff::DeformField::kDistance, espdiff::DeformField::kDensity}) {
     CompareOptions options = quick_options();
     options.regularize.max_iterations = options.deform.max_iterations = 40;
     options.surface.grid_spacing_A = 1.5;

@@ -17,12 +17,12 @@
 #include "support/test_data.h"
 
 using namespace espdiff_test;
-using espdiff::FieldKind;
+using espdiff::DeformField;
 using espdiff::StartFrom;
 
 namespace {
 
-CompareOptions deform_in(FieldKind field, bool subdivide = false) {
+CompareOptions deform_in(DeformField field, bool subdivide = false) {
   CompareOptions options;
   options.method = espdiff::Method::kDeform;
   options.field = field;
@@ -49,7 +49,8 @@ TEST_CASE(
     "in every field, with and without subdivision, deform converges, and paths are no shorter than displacements") {
   const Side source = make_side(1, 0), target = make_side(2, 0.4);
   for (const auto& engine : back_ends()) {
-    for (const FieldKind field : {FieldKind::kDensity, FieldKind::kDistance, FieldKind::kGvf, FieldKind::kGvf2}) {
+    for (const DeformField field :
+         {DeformField::kDensity, DeformField::kDistance, DeformField::kGvf, DeformField::kGvf2}) {
       for (const bool subdivide : {false, true}) {
         const CompareResult r = compare(*engine, source.input(), target.input(), deform_in(field, subdivide), {});
         CAPTURE(to_string(field));
@@ -57,7 +58,7 @@ TEST_CASE(
         CHECK(r.deform_report.converged);
         CHECK(r.certificate.mapped_to_target.mean < 0.05);
         CHECK(r.certificate.corrupt_area_fraction < 0.02);
-        const bool flows = field == FieldKind::kGvf || field == FieldKind::kGvf2;
+        const bool flows = field == DeformField::kGvf || field == DeformField::kGvf2;
         CHECK((r.flow_report.sweeps > 0) == flows);
         CHECK(r.flow_report.converged == flows);
         if (!subdivide) CHECK(r.n_vertices_subdivided == 0);
@@ -83,7 +84,7 @@ TEST_CASE("subdivision reaches missed parts, and its vertices come from the sour
     CompareResult results[2];
     for (const bool subdivide : {false, true}) {
       results[subdivide ? 1 : 0] =
-          compare(*engine, {&source, nullptr}, {&target, nullptr}, deform_in(FieldKind::kDistance, subdivide), {});
+          compare(*engine, {&source, nullptr}, {&target, nullptr}, deform_in(DeformField::kDistance, subdivide), {});
     }
     const CompareResult &without = results[0], &with = results[1];
     std::printf(
@@ -96,7 +97,7 @@ TEST_CASE("subdivision reaches missed parts, and its vertices come from the sour
     CHECK(with.certificate.target_to_mapped.max < 0.2 * without.certificate.target_to_mapped.max);
     CHECK(with.certificate.corrupt_area_fraction < 0.1 * without.certificate.corrupt_area_fraction);
     // The maximum number of iterations applies to all rounds together.
-    CompareOptions hurried = deform_in(FieldKind::kDistance, true);
+    CompareOptions hurried = deform_in(DeformField::kDistance, true);
     hurried.deform.max_iterations = without.deform_report.iterations + 7;
     const CompareResult stopped = compare(*engine, {&source, nullptr}, {&target, nullptr}, hurried, {});
     CHECK(stopped.deform_report.iterations == hurried.deform.max_iterations);
@@ -121,7 +122,7 @@ TEST_CASE("subdivision reaches missed parts, and its vertices come from the sour
 TEST_CASE("a surface mapped onto itself is not subdivided, and its paths are short") {
   const Side side = make_side(1, 0);
   for (const auto& engine : back_ends()) {
-    for (const FieldKind field : {FieldKind::kDistance, FieldKind::kGvf2}) {
+    for (const DeformField field : {DeformField::kDistance, DeformField::kGvf2}) {
       const CompareResult r = compare(*engine, side.input(), side.input(), deform_in(field, true), {});
       CHECK(r.metrics.mean_displacement_A < 0.03);
       CHECK(r.metrics.mean_path_length_A < 0.5);
@@ -152,7 +153,7 @@ TEST_CASE("a series continues from a subdivided step with the source's own verti
   const auto pair = ubiquitin();
   if (!pair) return;
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
-  espdiff::Series series(*engine, {&pair->source, nullptr}, deform_in(FieldKind::kGvf2, true));
+  espdiff::Series series(*engine, {&pair->source, nullptr}, deform_in(DeformField::kGvf2, true));
   const CompareResult first = series.step({&pair->target, nullptr}, StartFrom::kPrevious, {});
   CHECK(first.n_vertices_subdivided > 0);
   REQUIRE(series.state().has_value());

@@ -46,14 +46,14 @@ TEST_CASE("a setting changes its option") {
                                          {"grid-spacing", "0.5"},
                                          {"regularize-mu", "0.4"},
                                          {"mu", "0.6"},
-                                         {"field", "density"},
+                                         {"deform-field", "density"},
                                          {"project", "0"},
                                          {"interpolation", "tricubic"},
                                          {"max-iterations", "12"}});
   CHECK(o.surface.grid_spacing_A == 0.5);
   CHECK(o.regularize.mu == 0.4);
   CHECK(o.deform.mu == 0.6);
-  CHECK(o.field == espdiff::FieldKind::kDensity);
+  CHECK(o.field == espdiff::DeformField::kDensity);
   CHECK_FALSE(o.surface.project);
   CHECK(o.regularize.interpolation == espdiff::Interpolation::kTricubic);
   CHECK(o.deform.max_iterations == 12);
@@ -82,7 +82,7 @@ TEST_CASE("a refused value is named with the accepted ones") {
   CHECK(message("max-iterations", "2.5") == "max-iterations: '2.5' is not a whole number of 0 or more");
   CHECK(message("cavities", "yes") == "cavities: 'yes' is not 0 or 1");
   CHECK(message("align", "heavy") == "align: 'heavy' is not all, backbone, ca or none");
-  CHECK(message("field", "gvf3") == "field: 'gvf3' is not density, distance, gvf or gvf2");
+  CHECK(message("deform-field", "gvf3") == "deform-field: 'gvf3' is not density, distance, gvf or gvf2");
   CHECK(message("gvf-weight", "0") == "gvf-weight: '0' is not a positive number");
   CHECK(message("gvf-tolerance", "-1") == "gvf-tolerance: '-1' is not a positive number");
   CHECK(message("gvf-max-sweeps", "many") == "gvf-max-sweeps: 'many' is not a whole number of 0 or more");

@@ -38,14 +38,12 @@ TEST_CASE("read_grid: a unit that is not the file's is taken, and the file's is 
 
 TEST_CASE("read_grid: other formats are refused by name, with a remedy") {
   const std::pair<const char*, const char*> files[] = {
-      {"map_ngl/3pqr-mode0.ccp4",
-       "a CCP4/MRC map, which is not read as a map; load it in VMD and save it as OpenDX (.dx)"},
       {"tim/2YPI.pdb",
-       "a PDB or PQR structure, which is not read as a map; that is no map; give an OpenDX, cube or VTI file"},
+       "a PDB or PQR structure, which is not read as a map; that is no map; give an OpenDX, cube, CCP4 or VTI file"},
       {"calb/1TCA.pdb", "an mmCIF file, which is not read as a map"},
       {"traj_adk/adk_dims.dcd", "a DCD trajectory, which is not read as a map"},
       {"tim/dTIM_seq.csv",
-       "a text file of unknown format, which is not read as a map; give an OpenDX, cube or VTI file"}};
+       "a text file of unknown format, which is not read as a map; give an OpenDX, cube, CCP4 or VTI file"}};
   for (const auto& [name, part] : files) {
     const auto path = real_input(name);
     if (!path) return;

@@ -201,7 +201,7 @@ TEST_CASE("OUT.json echoes all options under their names") {
   CompareOptions options;
   options.surface.grid_spacing_A = 0.5;
   options.align = AlignAtoms::kBackbone;
-  options.field = FieldKind::kDensity;
+  options.field = DeformField::kDensity;
   options.deform.interpolation = Interpolation::kTricubic;
   options.round_trip = true;
   options.temperature_K = 301.23456789;

@@ -14,6 +14,7 @@
 #include "cuda/certificate/slip.h"
 #include "cuda/certificate/weighted_order.h"
 #include "cuda/device/unwrap.h"
+#include "cuda/surface/atom_field.h"
 #include "cuda/surface/back_ends.h"
 #include "cuda/surface/distances_to_triangles.h"
 #include "cuda/surface/oracles.h"
@@ -97,9 +98,24 @@ std::size_t n_labels_that_differ(espdiff::Engine& engine, const AtomSet& atoms) 
                      to_host(vertex_residues_point_by_point(mesh_of(mesh), *cells)));
 }
 
+std::size_t n_means_that_differ(espdiff::Engine& engine, const AtomSet& atoms) {
+  const auto mesh = engine.isosurface(engine.density(upload(engine, atoms), 0.8), 0.5F);
+  espdiff::AtomValues values{atoms.positions, atoms.widths, {}};
+  for (std::size_t i = 0; i < atoms.size(); ++i)
+    values.values.push_back(i % 6 == 1 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(i % 13));
+  return n_different(to_host(atom_field(mesh_of(mesh), values)),
+                     to_host(atom_field_point_by_point(mesh_of(mesh), values)));
+}
+
 }  // namespace
 
 TEST_SUITE_BEGIN("certificate forms");
+
+TEST_CASE("means of atoms' values: blocks and single points agree") {
+  const auto engine = cpu();
+  CHECK(n_means_that_differ(*engine, random_cloud(300, 34)) == 0);
+  CHECK(n_means_that_differ(*engine, crowd(400)) == 0);
+}
 
 TEST_CASE("distances to triangles: blocks, single points and all triangles agree, wherever the points lie") {
   const auto engine = cpu();

@@ -1,6 +1,7 @@
 // determinism.cpp: the same bits for any number of threads and on repetition, stage by stage.
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <map>
 #include <string>
 
@@ -11,6 +12,7 @@
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
+#include "engine/field_stage.h"
 #include "engine/surface_stage.h"
 #include "support/random.h"
 #include "support/test_data.h"
@@ -32,6 +34,7 @@ std::uint64_t hash_of(const espdiff::Metrics& m) {
       .add(m.carbo_index)
       .add(m.mean_displacement_A)
       .add(m.mean_path_length_A)
+      .add(m.correlation)
       .value();
 }
 
@@ -116,6 +119,13 @@ Hashes run_all_stages(Engine& engine, const AtomSet& source_atoms, const AtomSet
     hashes["displacement" + suffix] = Hash().add(engine.download(engine.displacement(start, mapped))).value();
   }
   hashes["area"] = Hash().add(engine.area(start)).value();
+  espdiff::AtomValues values{source_atoms.positions, source_atoms.widths, {}};
+  for (std::size_t i = 0; i < values.positions.size(); ++i)
+    values.values.push_back(i % 5 == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                       : static_cast<float>(values.positions[i].x));
+  hashes["field, mean"] = Hash().add(engine.atom_field(start, values)).value();
+  values.weight = espdiff::AtomWeight::kDecaySum;
+  hashes["field, sum"] = Hash().add(engine.atom_field(start, values)).value();
   hashes["residues"] = Hash().add(engine.vertex_residues(start, source)).value();
   return hashes;
 }

@@ -1,0 +1,78 @@
+// field.h: a field that two states are compared by: what it is, and how it is made for a state.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/handles.h"
+#include "base/quantity.h"
+#include "base/types.h"
+#include "engine/field_stage.h"
+
+namespace espdiff {
+
+/// A surface on which a field is read, in the common frame.
+struct FieldPlace {
+  Engine& engine;
+  MeshPtr mesh;
+  MeshPtr outside;  ///< the mesh moved outward by the distance at which potentials are read; maps are read there
+  const Molecule& molecule;
+  RigidTransform to_common;  ///< the molecule's own frame -> the common frame
+  AtomsPtr atoms;            ///< of the molecule
+  float isovalue = 0;
+  double radius_scale = 1;
+  GridPtr potential;  ///< of the molecule; null where there is none
+};
+
+/// [vertex] values on a surface; NaN where there are none.
+using SurfaceReader = std::function<std::vector<float>(const FieldPlace& place)>;
+
+/// A field of one state: values of its atoms, a map in its own frame, or a function of its surface; one of them.
+struct StateField {
+  std::vector<float> atoms;  ///< [atom] NaN where the atom has none
+  AtomWeight weight = AtomWeight::kDensityMean;
+  std::shared_ptr<const Grid> map;
+  SurfaceReader on_surface;
+  std::vector<std::string> notes;  ///< what a reader of the result has to know
+};
+
+enum class FieldSide { kSource, kTarget };
+const char* to_string(FieldSide side);  ///< "source", "target"
+
+/// Makes a field of a state. @throws InputError (the state has none)
+using FieldMaker = std::function<StateField(const Molecule& molecule, FieldSide side)>;
+
+/// A field, as it was asked for.
+struct Field {
+  Quantity quantity;
+  std::string what;       ///< KIND or KIND:ARGUMENT
+  std::string reference;  ///< author, title, year of its values; empty for the user's own
+  FieldMaker make;
+};
+
+/// A kind of field: a row of `espdiff fields`. Its file is field/kinds/NAME.cpp.
+struct FieldKind {
+  Quantity quantity;      ///< its name is the kind's
+  std::string argument;   ///< what follows the colon: "SCALE"; in brackets where it may be missing; empty for none
+  std::string help;       ///< one sentence
+  std::string reference;  ///< author, title, year
+  /// Makes the field; reads the files that the argument names.
+  /// @throws InputError, IoError, FormatError
+  std::function<Field(const FieldKind& kind, const std::string& argument)> field;
+};
+
+/// A kind without an argument whose values are those of atoms.
+FieldKind kind_of_atoms(Quantity quantity, std::string help, std::string reference,
+                        std::function<std::vector<float>(const Molecule&)> values);
+
+/// Gives each hydrogen without a value that of the nearest other atom of its residue that has one.
+void give_to_hydrogens(const Molecule& molecule, std::vector<float>& values);
+
+bool is_hydrogen(const Atom& atom);
+
+constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
+
+}  // namespace espdiff

@@ -1,0 +1,48 @@
+// field_files.h: files that a field's values come from, one for both states or one for each.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "field/field.h"
+
+namespace espdiff {
+
+/// "FILE" or "SOURCE_FILE,TARGET_FILE".
+class SideFiles {
+ public:
+  /// @throws InputError (no file, more than two)
+  SideFiles(const std::string& kind, const std::string& argument);
+  const std::string& of(FieldSide side) const;
+  bool is_one() const { return target_.empty(); }
+  std::vector<std::string> all() const;
+
+ private:
+  std::string source_, target_;
+};
+
+/// Values of residues or of atoms from a table, by chain, number and insertion code, and for atoms by name.
+class ValueTable {
+ public:
+  /// Reads a CSV file with the columns chain, residue_number, insertion_code (may be missing), for atoms atom_name, and
+  /// value; instead of `value` the only other column that is no residue_name. An empty field, nan and NA are no value.
+  /// @throws IoError, FormatError (columns, a number that is none, a place twice)
+  ValueTable(const std::string& path, bool of_atoms);
+
+  /// The values of a molecule's atoms, NaN where the table has none, with notes on what does not match.
+  /// @throws InputError if nothing matches
+  StateField values_of(const Molecule& molecule, FieldSide side) const;
+
+ private:
+  struct Entry {
+    double value;
+    std::string label;  ///< "A 12", as in the file
+  };
+  std::string path_;
+  bool of_atoms_;
+  std::map<std::string, Entry> entries_;
+  std::vector<std::string> order_;  ///< keys, in the order of the file
+};
+
+}  // namespace espdiff

@@ -1,0 +1,28 @@
+// field_kinds.h: all kinds of fields, and fields by request.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "field/field.h"
+
+namespace espdiff {
+
+/// All kinds, in the order of the list in src/CMakeLists.txt, from which the build makes this function.
+const std::vector<FieldKind>& field_kinds();
+
+/// Reads "NAME", "NAME=KIND", "NAME=KIND:ARGUMENT" or "KIND:ARGUMENT", several parted by `|`. The name of the first and
+/// the last is the kind's.
+/// @throws InputError (form, name, no such kind)
+std::vector<FieldRequest> parse_fields(const std::string& text);
+
+/// @throws InputError (a name twice)
+void check_fields(const std::vector<FieldRequest>& requests);
+
+/// Makes the fields; reads their files. @throws InputError, IoError, FormatError
+std::vector<Field> make_fields(const std::vector<FieldRequest>& requests);
+
+/// The files that a request names. @returns none for kinds that read none
+std::vector<std::string> files_of(const FieldRequest& request);
+
+}  // namespace espdiff

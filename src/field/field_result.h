@@ -1,0 +1,56 @@
+// field_result.h: two states' values of a field at corresponding points, and what they differ by.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/quantity.h"
+#include "base/types.h"
+#include "engine/certificate_stage.h"
+
+namespace espdiff {
+
+/// Means of a quantity over a residue's trusted surface, weighted by area; NaN where it has none.
+struct ResidueMeans {
+  double area_A2 = 0;  ///< of trusted mapped surface with values
+  double mean_abs_difference = 0;
+  double mean_signed_difference = 0;  ///< target - source
+  double mean_source = 0;
+  double mean_target = 0;
+  double sign_change_area_fraction = 0;
+};
+
+/// A field's part of a comparison's result.
+struct FieldResult {
+  Quantity quantity;
+  std::string what;       ///< KIND or KIND:ARGUMENT
+  std::string reference;  ///< of its values
+  Metrics metrics;        ///< over trusted triangles
+  Metrics metrics_all;    ///< over all triangles with values
+  /// Matched vertices without a value, which are left out.
+  std::size_t n_missing_source = 0, n_missing_target = 0;
+  std::vector<ResidueMeans> residues;  ///< [source residue]; empty for a region or patch
+  std::vector<float> source, target;   ///< [vertex] NaN without a value; empty for a region or patch
+};
+
+/// [vertex] a third of the area of each triangle that counts. @param counts [triangle] called with its index
+template <typename Positions, typename Counts>
+std::vector<double> corner_areas(const Positions& p, const std::vector<Triangle>& triangles, const Counts& counts) {
+  std::vector<double> weight(p.size(), 0.0);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (!counts(t)) continue;
+    const Triangle& v = triangles[t];
+    const double area = 0.5 * norm(cross(p[v[1]] - p[v[0]], p[v[2]] - p[v[0]]));
+    for (const std::uint32_t c : v) weight[c] += area / 3;
+  }
+  return weight;
+}
+
+/// @param weight  [vertex] from corner_areas(); vertices of weight 0 do not count
+/// @param residue [vertex] -1 for none  @param source, target [vertex] finite where vertices count
+std::vector<ResidueMeans> residue_means(const std::vector<double>& weight, const std::vector<std::int32_t>& residue,
+                                        const std::vector<float>& source, const std::vector<float>& target,
+                                        std::size_t n_residues);
+
+}  // namespace espdiff

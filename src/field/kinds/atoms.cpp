@@ -1,0 +1,29 @@
+// atoms.cpp: fields of atoms' values from tables.
+#include <memory>
+
+#include "field/field_files.h"
+
+namespace espdiff {
+
+FieldKind atoms_kind() {
+  FieldKind kind{{"atoms", "Values of atoms", "", true},
+                 "FILE.csv[,TARGET.csv]",
+                 "Values of atoms from a table, such as computed shieldings or fluctuations: a CSV "
+                 "file with the columns chain, residue_number, atom_name and value, for both states or one for each",
+                 "",
+                 nullptr};
+  kind.field = [](const FieldKind& self, const std::string& argument) {
+    const SideFiles files(self.quantity.name, argument);
+    const auto source = std::make_shared<const ValueTable>(files.of(FieldSide::kSource), true);
+    const auto target =
+        files.is_one() ? source : std::make_shared<const ValueTable>(files.of(FieldSide::kTarget), true);
+    Field field{self.quantity, "", "", nullptr};
+    field.make = [source, target](const Molecule& molecule, FieldSide side) {
+      return (side == FieldSide::kSource ? source : target)->values_of(molecule, side);
+    };
+    return field;
+  };
+  return kind;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,11 @@
+// charge.cpp: the field of the atoms' charges.
+#include "field/field.h"
+
+namespace espdiff {
+
+FieldKind charge_kind() {
+  return kind_of_atoms({"charge", "Charge", "e", true}, "Partial charges of the atoms around a point, their mean",
+                       "the charges that the structures have", [](const Molecule& m) { return m.charges; });
+}
+
+}  // namespace espdiff

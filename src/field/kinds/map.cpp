@@ -1,0 +1,32 @@
+// map.cpp: fields of any unit from maps.
+#include <memory>
+
+#include "field/field_files.h"
+#include "io/read_grid.h"
+
+namespace espdiff {
+
+FieldKind map_kind() {
+  FieldKind kind{
+      {"map", "Map", "", true},
+      "SOURCE.FILE,TARGET.FILE",
+      "Maps of any unit, each in the frame of its structure: OpenDX, VTI, cube, CCP4 or MRC files, such as water "
+      "densities of VMD's volmap, cryo-EM maps, solvation maps",
+      "",
+      nullptr};
+  kind.field = [](const FieldKind& self, const std::string& argument) {
+    const SideFiles files(self.quantity.name, argument);
+    const auto source = std::make_shared<const Grid>(read_grid(files.of(FieldSide::kSource)));
+    const auto target = files.is_one() ? source : std::make_shared<const Grid>(read_grid(files.of(FieldSide::kTarget)));
+    Field field{self.quantity, "", "", nullptr};
+    field.make = [source, target](const Molecule&, FieldSide side) {
+      StateField of_state;
+      of_state.map = side == FieldSide::kSource ? source : target;
+      return of_state;
+    };
+    return field;
+  };
+  return kind;
+}
+
+}  // namespace espdiff
