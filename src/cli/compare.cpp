@@ -329,7 +329,7 @@ Verb add_compare(CLI::App& app) {
                    "Do not try other commands after a result that is not trusted; without it those that take seconds "
                    "are tried, and the one that helps is printed");
   set_help(*parser,
-           {"--output --overwrite --select --leave-out --ligands --ph --same-protonation --region --region-within --of "
+           {"--output --overwrite --select --leave-out --ph --same-protonation --region --region-within --of "
             "--potential --source-map --target-map --offset --domains --threads --full --quiet",
             {"espdiff compare 1t24.pdb 1t2e.pdb --select '//A;polymer' --region-within 5 --of '(NAD,OXQ)' -o ldh",
              "espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result"}});

@@ -143,7 +143,7 @@ void print_metrics(std::ostream& out, const Record& record) {
 void print_fields(std::ostream& out, const Record& record) {
   for (const auto& [name, json] : record.at("/fields").items()) {
     const Record field(json);
-    const Quantity quantity{name, field.text("/label"), field.text("/unit"), field.at("/signed").get<bool>()};
+    const Quantity quantity{name, field.text("/label"), field.text("/unit"), field.flag("/signed")};
     print_heading(out, "Field " + name, {"trusted area", "all area"});
     print_line(out, "Kind", quantity.label);
     for (const Metric& metric : field_metrics(quantity)) {

@@ -130,7 +130,7 @@ TEST_CASE("maps in two units: converted when both are known, refused when one is
   in.target_map = in.folder.write("unknown.dx", constant_dx(33, 2.0, 1.0, "bananas"));
   in.check_refused(in.compare(), 2, "two units");
   // 25.852 mV is kT/e at 300 K.
-  in.target_map = in.folder.write("mv.dx", constant_dx(33, 2.0, 25.852));
+  in.target_map = in.folder.write("mv.dx", constant_dx(33, 2.0, 25.852, "mV"));
   const Outcome outcome = in.compare("--target-map-unit mV");
   CHECK_MESSAGE(outcome.status == 0, outcome.err);
   CHECK(contains(outcome.out, "kT/e"));
