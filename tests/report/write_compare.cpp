@@ -61,9 +61,9 @@ CompareResult made_result() {
   result.certificate.not_checked = {"something_else"};
   result.regularize_report.iterations = 17;
   result.deform_report.iterations = 42;
-  result.residues = {{0, 6, 1, -1, 2, 1, 0.5, 1, 2, 0.25, 0, -1.5, 5},
-                     {1, 4, 2, 2, 0, 2, 0, 1.5, 3, 3.5, 0.5, 2.5, 4},
-                     {2, 0, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan}};
+  result.residues = {{{6, 1, -1, 2, 1, 0.5}, 0, 1, 2, 0.25, 0, -1.5, 5},
+                     {{4, 2, 2, 0, 2, 0}, 1, 1.5, 3, 3.5, 0.5, 2.5, 4},
+                     {{0, kNan, kNan, kNan, kNan, kNan}, 2, kNan, kNan, kNan, kNan, kNan, kNan}};
   result.residues[0].trusted_area_fraction = 1;
   result.residues[1].trusted_area_fraction = 0.5;
   result.residues[2].trusted_area_fraction = kNan;
