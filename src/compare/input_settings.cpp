@@ -143,8 +143,7 @@ void add_charge_rows(std::vector<Setting>& all) {
       "ligands", group, {"auto", "files"},
       [](InputOptions& o, const std::string& text) { o.charges.ligands_auto = text == "auto"; },
       [](const InputOptions& o) { return o.charges.ligands_auto ? "auto" : "files"; },
-      "Ligands that no force field has get hydrogens and charges from a MOL2 file, the others from Open Babel (auto), "
-      "or stop the run (files)")));
+      "Ligands without a MOL2 file: hydrogens and charges by Open Babel (auto), or refused (files)")));
   all.push_back(boolean_row(
       "same-protonation", group, [](auto& o) -> auto& { return o.charges.same_protonation; },
       "Residues of the target take the protonation states of the source's residues they pair with"));

@@ -49,7 +49,7 @@ TEST_CASE("a right pair is trustworthy by every kind of potential, computed or g
     const char *const method = map.first, *const kind = map.second;
     CAPTURE(method);
     for (const auto& [state, path] : {std::pair(*a, source_map), std::pair(*b, target_map)})
-      REQUIRE(run_espdiff("potential " + state + " --method " + method + " -q --overwrite -o " + path).status == 0);
+      REQUIRE(run_espdiff("potential " + state + " --method " + method + " --overwrite -q -o " + path).status == 0);
     const Json json = trusted(folder, *a + " " + *b + " --source-map " + source_map + " --target-map " + target_map);
     for (const char* side : {"source", "target"}) CHECK(json["given_maps"][side]["kind"] == kind);
     CHECK((json["potential_unit"] == "kT/e in vacuum") == (std::string(kind) != "salt water"));
