@@ -46,7 +46,7 @@ StatePlot state_plot(const CsvTable& table, bool bars, std::size_t top, const st
     plot.bars.resize(top);
   }
   plot.title = !title.empty()  ? title
-               : bars          ? "Bars: target - source, mean of each residue"
+               : bars          ? "Bars: target - source, mean " + (field.empty() ? "" : field + " ") + "of each residue"
                : field.empty() ? "Mean potential of each residue"
                                : "Mean of each residue: " + field;
   return plot;

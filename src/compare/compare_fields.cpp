@@ -89,6 +89,7 @@ void compare_fields(Engine& engine, const std::vector<Field>& fields, const Fiel
     field.quantity = fields[f].quantity;
     field.what = fields[f].what;
     field.reference = fields[f].reference;
+    field.files = fields[f].files;
     field.source = read_field(source.fields[f], on_source);
     field.target = read_field(target.fields[f], on_target);
     field.n_missing_source = count_missing(field.source, step.is_matched);

@@ -11,6 +11,7 @@
 #include "base/quantity.h"
 #include "base/types.h"
 #include "engine/field_stage.h"
+#include "field/field_result.h"
 
 namespace espdiff {
 
@@ -51,6 +52,7 @@ struct Field {
   std::string what;       ///< KIND or KIND:ARGUMENT
   std::string reference;  ///< author, title, year of its values; empty for the user's own
   FieldMaker make;
+  std::vector<FieldFile> files{};  ///< that its values come from
 };
 
 /// A kind of field: a row of `espdiff fields`. Its file is field/kinds/NAME.cpp.

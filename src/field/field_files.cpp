@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/residue_label.h"
 #include "io/read_csv.h"
+#include "io/sha256.h"
 
 namespace espdiff {
 
@@ -28,6 +29,12 @@ const std::string& SideFiles::of(FieldSide side) const {
 
 std::vector<std::string> SideFiles::all() const {
   return target_.empty() ? std::vector<std::string>{source_} : std::vector<std::string>{source_, target_};
+}
+
+std::vector<FieldFile> SideFiles::with_sums() const {
+  std::vector<FieldFile> files;
+  for (const std::string& path : all()) files.push_back({path, sha256_of_file(path)});
+  return files;
 }
 
 namespace {

@@ -17,6 +17,8 @@ class SideFiles {
   const std::string& of(FieldSide side) const;
   bool is_one() const { return target_.empty(); }
   std::vector<std::string> all() const;
+  /// With their SHA-256. @throws IoError
+  std::vector<FieldFile> with_sums() const;
 
  private:
   std::string source_, target_;

@@ -21,13 +21,19 @@ struct ResidueMeans {
   double sign_change_area_fraction = 0;
 };
 
+/// A file that a field's values come from.
+struct FieldFile {
+  std::string path, sha256;
+};
+
 /// A field's part of a comparison's result.
 struct FieldResult {
   Quantity quantity;
-  std::string what;       ///< KIND or KIND:ARGUMENT
-  std::string reference;  ///< of its values
-  Metrics metrics;        ///< over trusted triangles
-  Metrics metrics_all;    ///< over all triangles with values
+  std::string what;              ///< KIND or KIND:ARGUMENT
+  std::string reference;         ///< of its values
+  std::vector<FieldFile> files;  ///< empty for a region or patch
+  Metrics metrics;               ///< over trusted triangles
+  Metrics metrics_all;           ///< over all triangles with values
   /// Matched vertices without a value, which are left out.
   std::size_t n_missing_source = 0, n_missing_target = 0;
   std::vector<ResidueMeans> residues;  ///< [source residue]; empty for a region or patch

@@ -75,6 +75,8 @@ Json fields_json(const CompareResult& result, const std::string& part) {
     }
     entry["metrics_all_triangles"] = std::move(all);
     if (!part.empty()) continue;
+    entry["files"] = Json::array();
+    for (const FieldFile& file : field.files) entry["files"].push_back({{"path", file.path}, {"sha256", file.sha256}});
     entry["n_vertices_without_value"] = {{"source", field.n_missing_source}, {"target", field.n_missing_target}};
   }
   return json;

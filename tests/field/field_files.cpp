@@ -46,6 +46,16 @@ TEST_CASE("residues get their values by chain, number and insertion code") {
   CHECK(field.notes[0] == path + ": 2 of its 4 residues are not in the target (made.pdb), the first is B 9");
 }
 
+TEST_CASE("files are named with their SHA-256") {
+  const ScratchFolder folder;
+  const std::string a = folder.write("a.csv", "abc"), b = folder.write("b.csv", "");
+  const auto files = espdiff::SideFiles("residues", a + "," + b).with_sums();
+  REQUIRE(files.size() == 2);
+  CHECK(files[0].path == a);
+  CHECK(files[0].sha256 == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  CHECK(files[1].sha256 == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
 TEST_CASE("a residue without a value is named, and any other column may hold the values") {
   const ScratchFolder folder;
   const std::string path = folder.write("c.csv", "chain,residue_number,residue_name,score\nA,1,ALA,3\n");

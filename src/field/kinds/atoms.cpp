@@ -21,6 +21,7 @@ FieldKind atoms_kind() {
     field.make = [source, target](const Molecule& molecule, FieldSide side) {
       return (side == FieldSide::kSource ? source : target)->values_of(molecule, side);
     };
+    field.files = files.with_sums();
     return field;
   };
   return kind;

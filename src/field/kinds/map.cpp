@@ -24,6 +24,7 @@ FieldKind map_kind() {
       of_state.map = side == FieldSide::kSource ? source : target;
       return of_state;
     };
+    field.files = files.with_sums();
     return field;
   };
   return kind;
