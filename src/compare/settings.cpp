@@ -272,6 +272,7 @@ Setting field_setting() {
       nullptr,
       nullptr};
   row.set = [](CompareOptions& o, const std::string& text) {
+    if (text.empty()) return;  // the default: none
     for (FieldRequest& request : parse_fields(text)) o.fields.push_back(std::move(request));
   };
   row.get = [](const CompareOptions& o) {

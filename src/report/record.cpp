@@ -12,9 +12,9 @@
 namespace espdiff {
 
 const Record::Json& Record::at(const std::string& pointer) const {
-  static const Json kNone;
+  static const Json none;
   const Json::json_pointer place(pointer);
-  return json_.contains(place) ? json_.at(place) : kNone;
+  return json_.contains(place) ? json_.at(place) : none;
 }
 
 double Record::number(const std::string& pointer) const {

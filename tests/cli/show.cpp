@@ -78,7 +78,8 @@ TEST_CASE("show survives records with other types in every place") {
   REQUIRE(run_espdiff(pair.call).status == 0);
   const std::string text = read_file(pair.json());
   const nlohmann::ordered_json record = nlohmann::ordered_json::parse(text);
-  for (const auto& [key, value] : record.items()) {
+  for (const auto& item : record.items()) {
+    const std::string key = item.key();
     for (const nlohmann::ordered_json& other :
          {nlohmann::ordered_json(1), nlohmann::ordered_json("x"), nlohmann::ordered_json::array({1, "x"})}) {
       nlohmann::ordered_json changed = record;

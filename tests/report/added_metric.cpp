@@ -60,7 +60,7 @@ CompareResult result_of(double mapped_area) {
   result.source_surface.area_A2 = 10;
   result.area_mapped_A2 = mapped_area;
   result.time_ms = {{"total", 1.0}};
-  result.residues = {{0, 6, 0, 0, 0, 0, 0, 1, 2.5}};
+  result.residues = {{{6, 0, 0, 0, 0, 0}, 0, 1, 2.5}};
   return result;
 }
 
