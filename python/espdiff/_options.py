@@ -20,7 +20,7 @@ class Options(TypedDict, total=False):
     force_field: str
     ph: float
     ligand: Union[str, List[str]]
-    # files, auto
+    # auto, files
     ligands: str
     same_protonation: bool
     cache: bool
@@ -36,6 +36,7 @@ class Options(TypedDict, total=False):
     scan: bool
     side_chains: int
     side_chain_seed: int
+    fields: Dict[str, str]
     offset: str
     temperature: float
     trust_maps: bool
@@ -52,7 +53,7 @@ class Options(TypedDict, total=False):
     max_edge: float
     max_stretch: float
     # density, distance, gvf, gvf2
-    field: str
+    deform_field: str
     distance_threshold: float
     gvf_weight: float
     gvf_tolerance: float

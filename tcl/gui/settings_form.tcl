@@ -7,7 +7,7 @@ namespace eval ::espdiff::gui {
     array set standard {}
 
     # Small groups of the table share a page.
-    variable setting_pages {General {Molecules Potentials Computing Verdict} Input {Structures Charges Region} Surface Surface
+    variable setting_pages {General {Molecules Potentials Computing Verdict} Input {Structures Charges Region Fields} Surface Surface
         {Salt water} {{Salt water}} Mapping {Mapping {Mapping by morph}} Deform {{Mapping by deform}} Regularization Regularization}
 
     # The core's settings and those of the commands that compute.

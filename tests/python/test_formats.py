@@ -25,7 +25,7 @@ ENDINGS = ["dcd", "xtc", "trr", "nc"]
 @pytest.fixture(scope="module")
 def plugins():
     try:
-        espdiff.frames("absent.psf", "absent.dcd")
+        espdiff.frames("absent.gro", "absent.xtc")
     except espdiff.DeviceError:
         pytest.skip("SKIPPED: VMD's molfile plugins are absent; put `vmd` on PATH, or set VMDDIR")
     except espdiff.Error:
