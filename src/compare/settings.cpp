@@ -170,8 +170,7 @@ void add_mapping_settings(std::vector<Setting>& all) {
       [](CompareOptions& o, const std::string& text) { o.field = parse_deform_field(text); },
       [](const CompareOptions& o) { return to_string(o.field); },
       "Field that moves the surface: density, distance (far from the target), or gradient vector flow of the target "
-      "(gvf) "
-      "or of both surfaces (gvf2)"));
+      "(gvf) or of both surfaces (gvf2)"));
   all.back().file_key = "field";
   all.push_back(number(
       "distance-threshold", kDeformGroup, kNotNegative, [](auto& o) -> auto& { return o.distance_threshold_A; },
@@ -341,8 +340,7 @@ std::vector<Setting> make_settings() {
   all.push_back(boolean(
       "trust-maps", "Potentials", [](auto& o) -> auto& { return o.trust_maps; },
       "Take given maps as they are: maps that do not fit the molecules' charges, or a potential in vacuum against one "
-      "in "
-      "water, give warnings and are not refused"));
+      "in water, give warnings and are not refused"));
   all.push_back(number(
       "require", "Verdict", kPositive, [](auto& o) -> auto& { return o.required_share; },
       "Share of the source's surface, and of the target's, that has to be trusted, 0 to 1; with less a result is NOT "

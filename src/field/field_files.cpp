@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <memory>
 #include <set>
 #include <sstream>
 
@@ -127,6 +128,19 @@ StateField ValueTable::values_of(const Molecule& molecule, FieldSide side) const
     field.notes.push_back(path_ + ": " + std::to_string(without.size()) + " of " +
                           std::to_string(molecule.residues.size()) + " residues of " + state +
                           " have no value there, the first is " + residue_label(molecule.residues[*without.begin()]));
+  return field;
+}
+
+Field field_of_tables(const FieldKind& kind, const std::string& argument, bool of_atoms) {
+  const SideFiles files(kind.quantity.name, argument);
+  const auto source = std::make_shared<const ValueTable>(files.of(FieldSide::kSource), of_atoms);
+  const auto target =
+      files.is_one() ? source : std::make_shared<const ValueTable>(files.of(FieldSide::kTarget), of_atoms);
+  Field field{kind.quantity, "", "", nullptr};
+  field.make = [source, target](const Molecule& molecule, FieldSide side) {
+    return (side == FieldSide::kSource ? source : target)->values_of(molecule, side);
+  };
+  field.files = files.with_sums();
   return field;
 }
 

@@ -47,4 +47,9 @@ class ValueTable {
   std::vector<std::string> order_;  ///< keys, in the order of the file
 };
 
+/// The field of tables of residues' or atoms' values, one for both states or one for each.
+/// @param argument of the kind: "FILE.csv" or "SOURCE.csv,TARGET.csv"
+/// @throws as SideFiles, ValueTable
+Field field_of_tables(const FieldKind& kind, const std::string& argument, bool of_atoms);
+
 }  // namespace espdiff

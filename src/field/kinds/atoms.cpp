@@ -1,6 +1,4 @@
 // atoms.cpp: fields of atoms' values from tables.
-#include <memory>
-
 #include "field/field_files.h"
 
 namespace espdiff {
@@ -12,18 +10,7 @@ FieldKind atoms_kind() {
                  "file with the columns chain, residue_number, atom_name and value, for both states or one for each",
                  "",
                  nullptr};
-  kind.field = [](const FieldKind& self, const std::string& argument) {
-    const SideFiles files(self.quantity.name, argument);
-    const auto source = std::make_shared<const ValueTable>(files.of(FieldSide::kSource), true);
-    const auto target =
-        files.is_one() ? source : std::make_shared<const ValueTable>(files.of(FieldSide::kTarget), true);
-    Field field{self.quantity, "", "", nullptr};
-    field.make = [source, target](const Molecule& molecule, FieldSide side) {
-      return (side == FieldSide::kSource ? source : target)->values_of(molecule, side);
-    };
-    field.files = files.with_sums();
-    return field;
-  };
+  kind.field = [](const FieldKind& self, const std::string& argument) { return field_of_tables(self, argument, true); };
   return kind;
 }
 

@@ -1,6 +1,4 @@
 // residues.cpp: fields of residues' values from tables.
-#include <memory>
-
 #include "field/field_files.h"
 
 namespace espdiff {
@@ -13,16 +11,7 @@ FieldKind residues_kind() {
                  "",
                  nullptr};
   kind.field = [](const FieldKind& self, const std::string& argument) {
-    const SideFiles files(self.quantity.name, argument);
-    const auto source = std::make_shared<const ValueTable>(files.of(FieldSide::kSource), false);
-    const auto target =
-        files.is_one() ? source : std::make_shared<const ValueTable>(files.of(FieldSide::kTarget), false);
-    Field field{self.quantity, "", "", nullptr};
-    field.make = [source, target](const Molecule& molecule, FieldSide side) {
-      return (side == FieldSide::kSource ? source : target)->values_of(molecule, side);
-    };
-    field.files = files.with_sums();
-    return field;
+    return field_of_tables(self, argument, false);
   };
   return kind;
 }
