@@ -1,5 +1,5 @@
-// cufft.cpp: cuFFT's functions that espdiff calls, by pocketfft, on the memory of cuda_emulator/device_memory.h. Made into a
-// library of cuFFT's name, which the engine opens as it would open NVIDIA's.
+// cufft.cpp: cuFFT's functions that espdiff calls, by pocketfft, on the memory of cuda_emulator/device_memory.h. Made
+// into a library of cuFFT's name, which the engine opens as it would open NVIDIA's.
 #include <cufft.h>
 
 #define POCKETFFT_NO_MULTITHREADING
