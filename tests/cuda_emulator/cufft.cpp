@@ -6,7 +6,10 @@
 #define POCKETFFT_NO_VECTORS
 #include <pocketfft_hdronly.h>
 
+#include <complex>
+#include <cstddef>
 #include <map>
+#include <vector>
 
 // streams.h has these; the program that opens this library exports them.
 extern "C" void cuda_emulator_put(void* stream, void (*work)(void*), void* data);
