@@ -11,10 +11,12 @@
 #include "base/error.h"
 #include "base/vector.h"
 #include "compare/options.h"
+#include "field/given_values.h"
 #include "fingerprint.h"
 #include "io/molecule_builder.h"
 #include "io/read_dx.h"
 #include "io/read_grid.h"
+#include "io/sha256.h"
 #include "io/structure_file.h"
 #include "molfile_bridge.h"
 #include "potential/choose_potential.h"
@@ -75,6 +77,26 @@ VmdAtom atom_of(Tcl_Obj* description, const std::string& what) {
   return atom;
 }
 
+/// Values of fields, of all atoms in the coordinates; those of the molecule's are kept.
+/// @param places [atom of the molecule] in the coordinates
+void take_given_values(Tcl_Obj* description, const std::vector<std::size_t>& places, std::size_t n_coordinates,
+                       Endpoint& endpoint) {
+  const std::vector<Tcl_Obj*> pairs = to_vector(description, endpoint.role + " values");
+  auto given = std::make_shared<GivenValues>(*endpoint.molecule);
+  for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) {
+    const std::string name = to_string(pairs[k]), what = endpoint.molecule->name + ", " + name;
+    const std::vector<Tcl_Obj*> all = to_vector(pairs[k + 1], what);
+    if (all.size() != n_coordinates)
+      throw InputError(what + ": " + std::to_string(all.size()) + " values for " + std::to_string(n_coordinates) +
+                       " atoms");
+    std::vector<float> values;
+    for (const std::size_t place : places) values.push_back(static_cast<float>(to_double(all[place], what)));
+    given->add(name, std::move(values));
+  }
+  endpoint.inputs.back().sha256 = sha256_of(endpoint.inputs.back().sha256 + given->bytes());
+  endpoint.fields.given = std::move(given);
+}
+
 void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
   const std::string name = reader.text("name", endpoint.role);
   const std::vector<Tcl_Obj*> atoms = to_vector(reader.require("atoms"), endpoint.role + " atoms");
@@ -93,6 +115,7 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
   const ValueOrigin charges = origin_named(reader.text("charges_origin", "none"), "charges_origin");
   MoleculeBuilder builder(name, {});
   std::vector<float> charge;
+  std::vector<std::size_t> places;
   for (std::size_t i = 0; i < atoms.size(); ++i) {
     const std::string what = name + ", atom " + std::to_string(i);
     VmdAtom atom = atom_of(atoms[i], what);
@@ -100,6 +123,7 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
     if (at >= positions.size())
       throw InputError(what + ": there are coordinates of " + std::to_string(positions.size()) + " atoms only");
     atom.entry.position = static_cast<Vec3d>(positions[at]);
+    places.push_back(at);
     charge.push_back(static_cast<float>(atom.charge));
     if (radii == ValueOrigin::kElement) {
       builder.add(atom.entry);
@@ -121,6 +145,7 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
     if (cell && make_whole(*endpoint.molecule, *cell, whole, endpoint.role) > 0) input += " whole 1";
   }
   endpoint.inputs.push_back({endpoint.role, input, fingerprint(*endpoint.molecule)});
+  if (Tcl_Obj* const values = reader.find("values")) take_given_values(values, places, positions.size(), endpoint);
   if (Tcl_Obj* const list = reader.find("region")) {
     std::set<std::size_t> chosen;
     for (Tcl_Obj* const index : to_vector(list, endpoint.role + " region"))
@@ -375,7 +400,8 @@ void add_parts(Endpoint& endpoint, SurfaceParts parts) {
 
 CompareInput input_of(const Endpoint& endpoint) {
   return {&*endpoint.molecule, endpoint.map ? &*endpoint.map : nullptr,
-          endpoint.computed_map ? endpoint.computed_map->maker() : endpoint.averaged_map, endpoint.parts};
+          endpoint.computed_map ? endpoint.computed_map->maker() : endpoint.averaged_map, endpoint.parts,
+          endpoint.fields};
 }
 
 }  // namespace espdiff::vmdplugin

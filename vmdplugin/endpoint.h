@@ -55,14 +55,15 @@ struct Endpoint {
   std::string role;
   LoadedState state;   ///< what load() did; its molecules but `whole` are moved out
   SurfaceParts parts;  ///< of the molecule; the region where the description has one
+  FieldInput fields;   ///< with VMD's values of the atoms
 };
 
 /// Reads the description; the keys are those of the Tcl layer's contract:
 ///   file PATH ?model N? ?map MAP?
 ///   atoms LIST coordinates BYTES ?indices LIST? name TEXT radii_origin R charges_origin C ?input TEXT? ?cell LIST?
-///   ?region LIST? ?map MAP?
-/// with the region's atoms as indices into the coordinates, MAP: file PATH ?array NAME? ?unit U?, or memory NAME ?unit
-/// U?, or
+///   ?region LIST? ?values {NAME LIST ...}? ?map MAP?
+/// with the region's atoms as indices into the coordinates, values of all atoms in the coordinates, MAP: file PATH
+/// ?array NAME? ?unit U?, or memory NAME ?unit U?, or
 ///   memory NAME mean_over N charges LIST cell LIST ?KEY VALUE ...?: a mean of PME over N frames, in kT/e, or
 ///   kind pme|pb|coulomb ?charges LIST? ?radii LIST? ?water B? ?box CELL? ?because TEXT? ?KEY VALUE ...?, the keys
 ///   those of potential_settings()

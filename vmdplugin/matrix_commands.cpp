@@ -46,6 +46,7 @@ std::vector<Variant> load_variants(MatrixObject& object, const Progress& progres
     variant.group = object.groups[i];
     variant.inputs = std::move(endpoint.inputs);
     for (InputFile& input : variant.inputs) input.role = input.role == endpoint.role ? "structure" : "map";
+    variant.fields = endpoint.fields;
     variant.molecule = std::move(*endpoint.molecule);
     variant.map = std::move(endpoint.map);
     if (endpoint.computed_map) variant.make_map = endpoint.computed_map->maker();
@@ -57,6 +58,7 @@ std::vector<Variant> load_variants(MatrixObject& object, const Progress& progres
     wholes.push_back(whole.size() > 0 ? &whole : &variants[i].molecule);
   }
   set_parts(variants, wholes, object.computation.options.input);
+  set_fields(variants, object.computation.options);
   object.endpoints.clear();
   std::vector<Molecule*> molecules;
   molecules.reserve(variants.size());
@@ -88,7 +90,7 @@ Tcl_Obj* matrix(const Call& call) {
   object->computation = parse_computation(reader, nullptr);
   object->settings = reader.rest();
   if (!object->run.cluster_by.empty())  // reports a wrong one at once
-    find_metric(object->run.cluster_by, part_names(object->computation.options.input));
+    find_metric(object->run.cluster_by, parts_and_fields(object->computation.options));
   for (Tcl_Obj* const variant : to_vector(call.arguments[0], "variants")) add_variant(variant, *object);
   check_labels(object->labels);
   object->run.potential = "maps";

@@ -125,6 +125,7 @@ PotentialPlan plan_potential(const Computation& computation, const std::vector<c
 CompareInput side_of(const State& state, const LoadedState& loaded, const PotentialPlan& plan, const std::string& role,
                      std::vector<InputFile>& inputs) {
   CompareInput side{&loaded.molecule, state.map.get(), nullptr, {}};
+  side.fields.given = state.given;
   if (state.map != nullptr) {
     inputs.push_back(state.map_input);
     inputs.back().role = role + "_map";

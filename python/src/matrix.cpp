@@ -81,7 +81,9 @@ std::string compute(const std::vector<StatePtr>& states, const std::vector<std::
       variant.label = labels[i];
       if (!groups.empty()) variant.group = groups[i];
       note_inputs(*states[i], loaded[i], "structure", variant.inputs);
-      variant.make_map = side_of(*states[i], loaded[i], plan, "structure", variant.inputs).make_map;
+      const CompareInput side = side_of(*states[i], loaded[i], plan, "structure", variant.inputs);
+      variant.make_map = side.make_map;
+      variant.fields = side.fields;
       for (InputFile& input : variant.inputs) {
         if (input.role == "structure_map") input.role = "map";
       }
@@ -93,6 +95,7 @@ std::string compute(const std::vector<StatePtr>& states, const std::vector<std::
     for (std::size_t i = 0; i < states.size(); ++i)
       wholes.push_back(loaded[i].whole.size() > 0 ? &loaded[i].whole : &variants[i].molecule);
     set_parts(variants, wholes, computation.options.input);
+    set_fields(variants, computation.options);
     order.radii_note = set_surface_radii(molecules, computation.options.input.radii);
     check_labels(labels);
     unite_map_units(variants, computation.options.temperature_K);

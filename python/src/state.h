@@ -13,8 +13,9 @@
 #include "report/provenance.h"
 
 namespace espdiff {
+class GivenValues;
 class StructureFile;
-}
+}  // namespace espdiff
 
 namespace espdiff::python {
 
@@ -31,7 +32,8 @@ struct State {
   InputFile input, map_input;  ///< without roles
   std::string preparation;     ///< what PDB2PQR did, as in OUT.json; empty where it did not run
   bool map_from_file = false;
-  std::string map_array;  ///< of a file that has several
+  std::string map_array;                     ///< of a file that has several
+  std::shared_ptr<const GivenValues> given;  ///< values of the atoms for fields; null for none
 };
 
 using StatePtr = std::shared_ptr<const State>;

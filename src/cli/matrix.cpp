@@ -111,6 +111,7 @@ States read_states(const MatrixArguments& a, const std::vector<VariantFiles>& fi
   for (std::size_t i = 0; i < states.size(); ++i)
     wholes.push_back(states[i].whole.size() > 0 ? &states[i].whole : &all.variants[i].molecule);
   set_parts(all.variants, wholes, options.input);
+  set_fields(all.variants, options);
   all.radii_note = set_surface_radii(molecules, options.input.radii);
   unite_map_units(all.variants, options.temperature_K);
   return all;
