@@ -16,7 +16,6 @@
 #include "io/atomic_file.h"
 #include "io/elements.h"
 #include "io/molecule_builder.h"
-#include "io/read_grid.h"
 #include "io/select_atoms.h"
 #include "io/sha256.h"
 #include "io/structure_file.h"
@@ -119,7 +118,8 @@ StatePtr from_arrays(const AnyArray& positions, const std::optional<AnyArray>& r
 
 StatePtr from_file(const std::filesystem::path& path, int model, bool hetero, bool water) {
   auto state = std::make_shared<State>();
-  state->file = std::make_shared<const StructureFile>(path.string());
+  state->path = path.string();
+  state->file = std::make_shared<const StructureFile>(state->path);
   state->structure = {model, hetero, water, {}};
   state->molecule = state->file->read(state->structure);
   state->input = {"", path.string(), state->file->sha256(), nullptr, state->structure};
@@ -163,14 +163,11 @@ void save_pqr(const State& state, const std::filesystem::path& path) {
 
 StatePtr with_map_file(const State& state, const std::string& path, const std::string& unit, const std::string& array) {
   auto copy = std::make_shared<State>(state);
-  GridOptions options;
-  options.array = array;
-  options.unit = unit;
-  GridFile map = read_grid_file(path, options);
-  copy->map = std::make_shared<const Grid>(std::move(map.grid));
-  copy->map_input = {"", path, map.sha256};
-  copy->map_from_file = true;
+  copy->map = nullptr;
+  copy->map_path = path;
   copy->map_array = array;
+  copy->map_unit = unit;
+  read_given_map(*copy);
   return copy;
 }
 
@@ -182,7 +179,6 @@ StatePtr with_values(const State& state, const std::string& name, const std::vec
   auto given = state.given != nullptr ? std::make_shared<GivenValues>(*state.given)
                                       : std::make_shared<GivenValues>(of != nullptr ? of->molecule : state.molecule);
   given->add(name, values);
-  copy->input.sha256 = sha256_of(state.input.sha256 + given->bytes());
   copy->given = std::move(given);
   return copy;
 }
@@ -220,7 +216,7 @@ StatePtr with_map(const State& state, const AnyArray& values, const std::vector<
   auto copy = std::make_shared<State>(state);
   copy->map_input = {"", grid->name, sum.finish()};
   copy->map = grid;
-  copy->map_from_file = false;
+  copy->map_path.clear();
   return copy;
 }
 

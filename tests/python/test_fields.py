@@ -53,7 +53,7 @@ def test_other_arrays_are_another_input(made, tmp_path):
     n = len(made[0])
     options = {**SHAPES, "output": tmp_path / "m"}
     espdiff.matrix(made, ["a", "b"], **options, shard="1/2", fields={"x": np.zeros(n)})
-    with pytest.raises(espdiff.InputError, match="the structure of a has changed"):
+    with pytest.raises(espdiff.InputError, match="the array of a has changed"):
         espdiff.matrix(made, ["a", "b"], **options, shard="1/2", resume=True, fields={"x": np.ones(n)})
 
 
