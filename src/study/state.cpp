@@ -6,8 +6,10 @@
 
 #include "base/error.h"
 #include "compare/options.h"
+#include "field/given_values.h"
 #include "io/read_grid.h"
 #include "io/select_atoms.h"
+#include "io/sha256.h"
 #include "io/structure_file.h"
 #include "prepare/pdb2pqr.h"
 #include "report/state_report.h"
@@ -159,6 +161,12 @@ ComparedState StateReader::compared(const State& given, StateRole role, LoadedSt
   input.role = state.role;
   state.inputs = state_inputs(state.role, input, state.loaded);
   state.parts.region = given.region;
+  if (given.given == nullptr) return state;
+  state.fields.given = given.given;
+  std::string names;
+  for (const std::string& name : given.given->names()) names += (names.empty() ? "" : ", ") + name;
+  state.inputs.push_back({state.role == "structure" ? "array" : state.role + "_array",
+                          names + " of " + state.loaded.molecule.name, sha256_of(given.given->bytes()), {}, {}});
   return state;
 }
 
