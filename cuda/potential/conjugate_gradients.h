@@ -20,25 +20,28 @@ struct SolverReport {
   bool converged = false;
 };
 
-/// The solver's arrays beside x and b; [point] each.
+/// The solver's arrays beside x; [point] each, zero on the border.
 struct SolverWork {
-  explicit SolverWork(std::size_t n_points)
-      : r(n_points, 0), p(n_points, 0), z(n_points, 0), scratch(n_points, 0), low(n_points, 0) {}
-  Buffer<float> r, p, z, scratch, low;
+  explicit SolverWork(std::size_t n_points) : r(n_points, 0), p(n_points, 0), z(n_points, 0) {}
+  Buffer<float> r, p, z;
 };
+
+/// Writes b, zero on the border.
+using RightHandSide = std::function<void(Buffer<float>& b)>;
 
 /// Arrays are in single precision, sums in double. Conjugate gradients update the residual by recursion, and that one
 /// drifts from the true residual. When the recursion has converged, the true residual is computed; the iteration
 /// restarts from it where it is too large. Such a hybrid is robust in single precision where multigrid alone is not (Qi
 /// and Luo, J. Chem. Inf. Model. 59, 409 (2019)).
 ///
-/// Rounding x to single precision alone can leave a residual above the tolerance. So x has a second part, `work.low`,
-/// which takes the corrections after a restart (iterative refinement), and true residuals are computed in double
-/// precision from x + low. The caller gets their sum, rounded once.
+/// Rounding x to single precision alone can leave a residual above the tolerance. So x gets a second part after a
+/// restart, which takes the corrections (iterative refinement), and true residuals are computed in double precision
+/// from both. The caller gets their sum, rounded once.
+/// @param b     called for each true residual, so that no array holds it meanwhile
 /// @param x     [point] start and result; its border has the Dirichlet values. A start with a residual above 1, worse
 ///              than zero, is replaced by zero.
 /// @param step  called after each cycle with the relative residual
-SolverReport conjugate_gradients(const GridOperator& a, Multigrid& preconditioner, const Buffer<float>& b,
+SolverReport conjugate_gradients(const GridOperator& a, Multigrid& preconditioner, const RightHandSide& b,
                                  const SolverOptions& options, SolverWork& work, Buffer<float>& x,
                                  const std::function<void(double)>& step);
 

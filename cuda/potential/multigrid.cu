@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cuda/potential/plane_sweeps.h"
+
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
@@ -51,29 +53,32 @@ struct Apply {
 };
 ESPDIFF_GRID_KERNEL(Apply)
 
-struct Residual {
+/// The residual after a red and a black half sweep from zero: black points have none.
+struct RedResidual {
   static constexpr bool kColoured = false;
   int colour;
   OperatorView a;
   const float* x;
-  const float* b;
   float* r;
 
-  ESPDIFF_INLINE void at(std::size_t p, int) const { r[p] = (b[p] - a.diagonal[p] * x[p]) + a.neighbours(x, p); }
+  ESPDIFF_INLINE void at(std::size_t p, int of) const { r[p] = of == colour ? a.neighbours(x, p) : 0.0F; }
 };
-ESPDIFF_GRID_KERNEL(Residual)
+ESPDIFF_GRID_KERNEL(RedResidual)
 
-/// The same for x in two parts, in double precision: float products are exact there.
+/// r - A x for x in one or two parts, in double precision: float products are exact there.
+template <bool kTwoParts>
 struct ExactResidual {
   static constexpr bool kColoured = false;
   int colour;
   OperatorView a;
   const float* x;
   const float* low;
-  const float* b;
   float* r;
 
-  ESPDIFF_INLINE double whole(std::size_t p) const { return static_cast<double>(x[p]) + static_cast<double>(low[p]); }
+  ESPDIFF_INLINE double whole(std::size_t p) const {
+    if constexpr (kTwoParts) return static_cast<double>(x[p]) + static_cast<double>(low[p]);
+    return static_cast<double>(x[p]);
+  }
   ESPDIFF_INLINE double term(const float* e, std::size_t face, std::size_t p) const {
     return static_cast<double>(e[face]) * whole(p);
   }
@@ -81,11 +86,12 @@ struct ExactResidual {
     const double along_x = term(a.ex, p, p + 1) + term(a.ex, p - 1, p - 1);
     const double along_y = term(a.ey, p, p + a.row) + term(a.ey, p - a.row, p - a.row);
     const double along_z = term(a.ez, p, p + a.plane) + term(a.ez, p - a.plane, p - a.plane);
-    const double own = static_cast<double>(b[p]) - static_cast<double>(a.diagonal[p]) * whole(p);
+    const double own = static_cast<double>(r[p]) - static_cast<double>(a.diagonal[p]) * whole(p);
     r[p] = static_cast<float>(own + (along_x + along_y + along_z));
   }
 };
-ESPDIFF_GRID_KERNEL(ExactResidual)
+ESPDIFF_GRID_KERNEL(ExactResidual<false>)
+ESPDIFF_GRID_KERNEL(ExactResidual<true>)
 
 struct Clear {
   static constexpr bool kColoured = false;
@@ -129,29 +135,23 @@ void half_sweep(const GridOperator& a, int colour, const Buffer<float>& b, Buffe
 /// Points of the next coarser grid along an axis. Its last point may lie one step beyond the finer grid.
 int coarser(int n) { return n / 2 + 1; }
 
-/// b of the coarse grid: half the transpose of trilinear interpolation of r; the half belongs to the doubled spacing.
+/// b of the coarse grid. No coarse point's neighbours lie beyond the fine grid.
 void restrict_to(const GridSize& fine, const Buffer<float>& r, const GridSize& coarse, Buffer<float>& b) {
   const float* const from = raw(r);
   float* const to = raw(b);
   const auto row_of = [=] ESPDIFF_HD(std::size_t index) {
     const int j = static_cast<int>(index % static_cast<std::size_t>(coarse.ny - 2)) + 1,
               k = static_cast<int>(index / static_cast<std::size_t>(coarse.ny - 2)) + 1;
+    const float* const low = from + fine.index(0, 2 * j, 2 * k - 1);
+    const float* const mid = from + fine.index(0, 2 * j, 2 * k);
+    const float* const high = from + fine.index(0, 2 * j, 2 * k + 1);
+    const std::size_t row = fine.row();
+    float before = across_weighted(low + 1, mid + 1, high + 1, row);
     for (int i = 1; i < coarse.nx - 1; ++i) {
-      float sum = 0;
-      for (int dz = -1; dz <= 1; ++dz) {
-        const int z = 2 * k + dz;
-        if (z > fine.nz - 1) continue;
-        for (int dy = -1; dy <= 1; ++dy) {
-          const int y = 2 * j + dy;
-          if (y > fine.ny - 1) continue;
-          const float weight = (dz == 0 ? 1.0F : 0.5F) * (dy == 0 ? 1.0F : 0.5F);
-          const float* const line = from + fine.index(0, y, z);
-          const int x = 2 * i;
-          const float right = x + 1 < fine.nx ? line[x + 1] : 0.0F;
-          sum += weight * (line[x] + 0.5F * (line[x - 1] + right));
-        }
-      }
-      to[coarse.index(i, j, k)] = 0.5F * sum;
+      const int x = 2 * i;
+      const float after = across_weighted(low + x + 1, mid + x + 1, high + x + 1, row);
+      to[coarse.index(i, j, k)] = along_weighted(before, across_weighted(low + x, mid + x, high + x, row), after);
+      before = after;
     }
   };
   for_each_index(static_cast<std::size_t>(coarse.ny - 2) * static_cast<std::size_t>(coarse.nz - 2), row_of);
@@ -173,7 +173,7 @@ void add_interpolated(const GridSize& coarse, const Buffer<float>& correction, c
                    float* const row = to + fine.index(0, j, k);
                    for (int i = 1; i < fine.nx - 1; ++i) {
                      const int i0 = i / 2, i1 = (i + 1) / 2;
-                     row[i] += 0.125F * (((a[i0] + a[i1]) + (b[i0] + b[i1])) + ((c[i0] + c[i1]) + (d[i0] + d[i1])));
+                     row[i] += 0.125F * (((a[i0] + b[i0]) + (c[i0] + d[i0])) + ((a[i1] + b[i1]) + (c[i1] + d[i1])));
                    }
                  });
 }
@@ -264,9 +264,12 @@ void add_faces_to_diagonal(GridOperator& a) { run_on_grid(a.size, AddFaces{0, vi
 void apply_operator(const GridOperator& a, const Buffer<float>& x, Buffer<float>& y) {
   run_on_grid(a.size, Apply{0, view_of(a), raw(x), raw(y)});
 }
-void exact_residual(const GridOperator& a, const Buffer<float>& x, const Buffer<float>& low, const Buffer<float>& b,
-                    Buffer<float>& r) {
-  run_on_grid(a.size, ExactResidual{0, view_of(a), raw(x), raw(low), raw(b), raw(r)});
+void subtract_exactly(const GridOperator& a, const Buffer<float>& x, const Buffer<float>& low, Buffer<float>& r) {
+  if (low.empty()) {
+    run_on_grid(a.size, ExactResidual<false>{0, view_of(a), raw(x), nullptr, raw(r)});
+  } else {
+    run_on_grid(a.size, ExactResidual<true>{0, view_of(a), raw(x), raw(low), raw(r)});
+  }
 }
 
 void clear_inner(const GridSize& size, Buffer<float>& x) { run_on_grid(size, Clear{0, raw(x)}); }
@@ -289,38 +292,110 @@ Multigrid::Multigrid(const GridOperator& finest) : finest_(finest) {
     levels_.emplace_back();
     Level& level = levels_.back();
     coarsen(*last, level.on_grid);
-    for (Buffer<float>* buffer : {&level.x, &level.b, &level.r}) buffer->assign(level.on_grid.size.points(), 0.0F);
+    for (Buffer<float>* buffer : {&level.x, &level.b}) buffer->assign(level.on_grid.size.points(), 0.0F);
     last = &level.on_grid;
   }
+#if !defined(ESPDIFF_BACKEND_CUDA)
+  sweeps_ = std::make_unique<PlaneSweeps>(finest.size);
+#endif
 }
 
-void Multigrid::precondition(const Buffer<float>& r, Buffer<float>& z, Buffer<float>& scratch) {
-  cycle(0, finest_, r, z, scratch);
+Multigrid::~Multigrid() = default;
+
+void Multigrid::precondition_by_points(const Buffer<float>& r, Buffer<float>& z) {
+  if (residual_.empty()) {
+    residual_.assign(r.size(), 0.0F);
+    for (Level& level : levels_) level.r.assign(level.x.size(), 0.0F);
+  }
+  cycle_by_points(0, finest_, r, z, residual_);
 }
 
-void Multigrid::cycle(std::size_t depth, const GridOperator& a, const Buffer<float>& b, Buffer<float>& x,
-                      Buffer<float>& r) {
+namespace {
+
+/// Without a coarser grid: sweeps, symmetric.
+void sweep_coarsest(const GridOperator& a, const Buffer<float>& b, Buffer<float>& x) {
   run_on_grid(a.size, StartSweep{kRed, view_of(a), raw(b), raw(x)});
   half_sweep(a, kBlack, b, x);
+  constexpr int kSweeps = 8;
+  for (int i = 1; i < kSweeps; ++i) {
+    half_sweep(a, kRed, b, x);
+    half_sweep(a, kBlack, b, x);
+  }
+  for (int i = 0; i < kSweeps; ++i) {
+    half_sweep(a, kBlack, b, x);
+    half_sweep(a, kRed, b, x);
+  }
+}
+
+}  // namespace
+
+void Multigrid::cycle_by_points(std::size_t depth, const GridOperator& a, const Buffer<float>& b, Buffer<float>& x,
+                                Buffer<float>& r) {
   if (depth == levels_.size()) {
-    constexpr int kSweeps = 8;
-    for (int i = 1; i < kSweeps; ++i) {
-      half_sweep(a, kRed, b, x);
-      half_sweep(a, kBlack, b, x);
-    }
-    for (int i = 0; i < kSweeps; ++i) {
-      half_sweep(a, kBlack, b, x);
-      half_sweep(a, kRed, b, x);
-    }
+    sweep_coarsest(a, b, x);
     return;
   }
+  run_on_grid(a.size, StartSweep{kRed, view_of(a), raw(b), raw(x)});
+  half_sweep(a, kBlack, b, x);
   Level& next = levels_[depth];
-  run_on_grid(a.size, Residual{0, view_of(a), raw(x), raw(b), raw(r)});
+  run_on_grid(a.size, RedResidual{kRed, view_of(a), raw(x), raw(r)});
   restrict_to(a.size, r, next.on_grid.size, next.b);
-  cycle(depth + 1, next.on_grid, next.b, next.x, next.r);
+  cycle_by_points(depth + 1, next.on_grid, next.b, next.x, next.r);
   add_interpolated(next.on_grid.size, next.x, a.size, x);
   half_sweep(a, kBlack, b, x);
   half_sweep(a, kRed, b, x);
 }
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+
+double Multigrid::precondition(const Buffer<float>& r, Buffer<float>& z) {
+  precondition_by_points(r, z);
+  return dot_product(r, z);
+}
+
+double Multigrid::turn_and_apply(float beta, Buffer<float>& z, Buffer<float>& p) {
+  const float* const from = raw(z);
+  float* const to = raw(p);
+  for_each_index(p.size(), [=] ESPDIFF_HD(std::size_t i) { to[i] = from[i] + beta * to[i]; });
+  apply_operator(finest_, p, z);
+  return dot_product(p, z);
+}
+
+double advance(float alpha, const Buffer<float>& p, const Buffer<float>& q, Buffer<float>& x, Buffer<float>& r) {
+  const float* const along = raw(p);
+  const float* const image = raw(q);
+  float* const position = raw(x);
+  float* const residual = raw(r);
+  for_each_index(x.size(), [=] ESPDIFF_HD(std::size_t i) {
+    position[i] += alpha * along[i];
+    residual[i] -= alpha * image[i];
+  });
+  return dot_product(r, r);
+}
+
+#else
+
+double Multigrid::precondition(const Buffer<float>& r, Buffer<float>& z) { return cycle_by_planes(0, finest_, r, z); }
+
+double Multigrid::cycle_by_planes(std::size_t depth, const GridOperator& a, const Buffer<float>& b, Buffer<float>& x) {
+  if (depth == levels_.size()) {
+    sweep_coarsest(a, b, x);
+    return depth == 0 ? dot_product(b, x) : 0;
+  }
+  Level& next = levels_[depth];
+  sweeps_->smooth_and_restrict(a, b, x, next.on_grid.size, next.b);
+  cycle_by_planes(depth + 1, next.on_grid, next.b, next.x);
+  return sweeps_->correct_and_smooth(a, b, next.on_grid.size, next.x, x);
+}
+
+double Multigrid::turn_and_apply(float beta, Buffer<float>& z, Buffer<float>& p) {
+  return sweeps_->turn_and_apply(finest_, beta, z, p);
+}
+
+double advance(float alpha, const Buffer<float>& p, const Buffer<float>& q, Buffer<float>& x, Buffer<float>& r) {
+  return advance_by_runs(alpha, p, q, x, r);
+}
+
+#endif
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -8,9 +8,11 @@
 //
 // V(1,1): Gauss-Seidel, red then black before, black then red after, so that the cycle is symmetric and serves
 // conjugate gradients as a preconditioner. Coarse grids take every other point. Restriction is the transpose of
-// trilinear interpolation.
+// trilinear interpolation. After the first black half sweep the residual of black points is zero. On the CPU the steps
+// of a cycle run in passes (plane_sweeps.h), on a device one after the other; the bits of z are the same.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "cuda/potential/grid_kernels.h"
@@ -28,35 +30,61 @@ struct GridOperator {
 void add_faces_to_diagonal(GridOperator& on_grid);
 /// y = A x at inner points, from x with its border. The border of y is not changed.
 void apply_operator(const GridOperator& on_grid, const Buffer<float>& x, Buffer<float>& y);
-/// r = b - A (x + low) at inner points, summed in double precision.
-void exact_residual(const GridOperator& on_grid, const Buffer<float>& x, const Buffer<float>& low,
-                    const Buffer<float>& b, Buffer<float>& r);
+/// r -= A (x + low) at inner points, summed in double precision.
+/// @param low no elements for zero
+void subtract_exactly(const GridOperator& on_grid, const Buffer<float>& x, const Buffer<float>& low, Buffer<float>& r);
 /// Sets the inner points to zero; the border keeps its values.
 void clear_inner(const GridSize& size, Buffer<float>& x);
 /// Moves from `low` to x what single precision holds: x + low stays the same number, to about 14 digits.
 void add_parts(Buffer<float>& x, Buffer<float>& low);
 
+/// Restriction is the transpose of trilinear interpolation, first across a row, then along it; half of it, which
+/// belongs to the doubled spacing. Weights of a point's row and its eight neighbours, below, in and above its plane.
+ESPDIFF_INLINE float across_weighted(const float* low, const float* mid, const float* high, std::size_t row) {
+  const float corners = (*(low - row) + low[row]) + (*(high - row) + high[row]);
+  const float sides = (low[0] + high[0]) + (*(mid - row) + mid[row]);
+  return mid[0] + (0.5F * sides + 0.25F * corners);
+}
+ESPDIFF_INLINE float along_weighted(float before, float here, float after) {
+  return 0.5F * (here + 0.5F * (before + after));
+}
+
+class PlaneSweeps;
+
 class Multigrid {
  public:
   /// @param finest must outlive this object
   explicit Multigrid(const GridOperator& finest);
-  /// z = B r with a symmetric B that approximates the inverse of A; zero on the border.
-  /// @param scratch of the finest grid's size
-  void precondition(const Buffer<float>& r, Buffer<float>& z, Buffer<float>& scratch);
+  ~Multigrid();
+  /// z = B r with a symmetric B that approximates the inverse of A. @returns r . z
+  /// @param r, z zero on the border
+  double precondition(const Buffer<float>& r, Buffer<float>& z);
+  /// The same z, each step by itself (device).
+  void precondition_by_points(const Buffer<float>& r, Buffer<float>& z);
+  /// p = z + beta p, then z = A p. @returns p . A p
+  double turn_and_apply(float beta, Buffer<float>& z, Buffer<float>& p);
   int n_levels() const { return static_cast<int>(levels_.size()) + 1; }
-  /// Bytes that the coarse grids take for each point of the finest.
-  static constexpr double kBytesPerPoint = 7.0 * 4.0 / 7.0;
+  /// Bytes for each point of the finest grid, at most: a residual there (on a device alone), and the coarse grids.
+  static constexpr double kBytesPerPoint = 4 + 7.0 * 4.0 / 7.0;
 
  private:
   struct Level {
     GridOperator on_grid;
-    Buffer<float> x, b, r;
+    Buffer<float> x, b, r;  ///< r of precondition_by_points() alone
   };
-  void cycle(std::size_t level, const GridOperator& on_grid, const Buffer<float>& b, Buffer<float>& x,
-             Buffer<float>& r);
+  void cycle_by_points(std::size_t depth, const GridOperator& a, const Buffer<float>& b, Buffer<float>& x,
+                       Buffer<float>& r);
 
   const GridOperator& finest_;
   std::vector<Level> levels_;
+  Buffer<float> residual_;  ///< of the finest grid, as Level::r
+#if !defined(ESPDIFF_BACKEND_CUDA)
+  double cycle_by_planes(std::size_t depth, const GridOperator& a, const Buffer<float>& b, Buffer<float>& x);
+  std::unique_ptr<PlaneSweeps> sweeps_;
+#endif
 };
+
+/// x += alpha p, r -= alpha q. @returns r . r
+double advance(float alpha, const Buffer<float>& p, const Buffer<float>& q, Buffer<float>& x, Buffer<float>& r);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -33,7 +33,8 @@ struct TwoParts {
 /// r = b - faces - k sinh(x). The operator has the diagonal of the Jacobian at `jacobian_at`. @returns |r|
 double nonlinear_residual(const GridOperator& on_grid, const Buffer<float>& k, const Buffer<float>& jacobian_at,
                           const Buffer<float>& b, const TwoParts& x, Buffer<float>& r) {
-  exact_residual(on_grid, x.high, x.low, b, r);
+  r = b;
+  subtract_exactly(on_grid, x.high, x.low, r);
   const float* const ions = raw(k);
   const float* const at = raw(jacobian_at);
   const float* const value = raw(x.high);
@@ -75,6 +76,7 @@ NewtonReport newton(GridOperator& on_grid, const Buffer<float>& k, const Buffer<
                     int max_steps, SolverWork& work, Buffer<float>& x, const std::function<void(double)>& step) {
   NewtonReport report;
   Buffer<float> residual(x.size(), 0.0F), way(x.size(), 0.0F), low(x.size(), 0.0F);
+  const RightHandSide copy_residual = [&](Buffer<float>& of_step) { of_step = residual; };
   set_jacobian(on_grid, k, x);
   double norm = nonlinear_residual(on_grid, k, x, b, {x, low}, residual);
   SolverReport& told = report.solver;
@@ -94,20 +96,20 @@ NewtonReport newton(GridOperator& on_grid, const Buffer<float>& k, const Buffer<
     SolverOptions inner = options;
     inner.norm = norm;
     inner.tolerance = kStepTolerance;
-    told.cycles += conjugate_gradients(on_grid, multigrid, residual, inner, work, way, [](double) {}).cycles;
+    told.cycles += conjugate_gradients(on_grid, multigrid, copy_residual, inner, work, way, [](double) {}).cycles;
     ++report.steps;
     double part = 1, next = 0;
     for (int halvings = 0;; part *= 0.5, ++halvings) {
       go({x, low}, static_cast<float>(part), way, work.z, work.p);
-      next = nonlinear_residual(on_grid, k, x, b, {work.z, work.p}, work.scratch);
+      next = nonlinear_residual(on_grid, k, x, b, {work.z, work.p}, work.r);
       if (next < norm * (1 - 1e-4 * part) || halvings == kMostHalvings) break;
     }
     if (!(next < norm)) return report;  // no step length reduces the residual
     x = work.z;
     low = work.p;
-    // z has the border of x now; conjugate gradients expect zero there.
+    // They have the borders of x now; conjugate gradients expect zero there.
     work.z.assign(x.size(), 0.0F);
-    work.scratch.assign(x.size(), 0.0F);
+    work.p.assign(x.size(), 0.0F);
     set_jacobian(on_grid, k, x);
     norm = nonlinear_residual(on_grid, k, x, b, {x, low}, residual);
     step(norm / options.norm);

@@ -3,16 +3,16 @@
 
 #include <vector>
 
+#include "cuda/potential/multigrid.h"
 #include "cuda/surface/grid.h"
 #include "engine/poisson_boltzmann.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// Bytes of device memory for each grid point: four coefficients, x, b and the five arrays of the solver; coarse grids
-/// (28 bytes for each of their points, a seventh as many); for the nonlinear equation four arrays more; a map to start
-/// from or to focus from.
+/// Bytes of device memory for each grid point: four coefficients, x, the three arrays of the solver and one that it may
+/// add; the multigrid's; for the nonlinear equation five arrays more; a map to start from or to focus from.
 inline double pb_bytes_per_point(const PoissonBoltzmannOptions& options) {
-  return 4 * 4 + 7 * 4 + 4 + (options.nonlinear ? 4 * 4 : 0) + 4;
+  return 4 * 4 + 5 * 4 + Multigrid::kBytesPerPoint + (options.nonlinear ? 5 * 4 : 0) + 4;
 }
 
 /// @throws InputError (numbers of values, values that are not finite, no charges, a negative radius, a charge without

@@ -18,6 +18,7 @@
 #include "cuda/potential/map_origin.h"
 #include "cuda/potential/pb_checks.h"
 #include "cuda/potential/pb_problem.h"
+#include "cuda/surface/bspline.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -31,6 +32,7 @@ struct TransposedProblem {
       : origin_(origin),
         atoms_(atoms),
         constants_(pb_constants(origin.pb)),
+        own_(on_lattice),
         lattice_(lattice),
         grid_size_{lattice.size[0], lattice.size[1], lattice.size[2]} {
     // First, since it needs memory of its own for a while.
@@ -39,14 +41,10 @@ struct TransposedProblem {
     add_faces_to_diagonal(on_grid_);
     multigrid_ = std::make_unique<Multigrid>(on_grid_);
     work_ = std::make_unique<SolverWork>(lattice.n_points());
-    solution_.lattice = on_lattice;
-    solution_.values.assign(lattice.n_points(), 0.0F);
-    solution_.periodic = true;  // splines are of periodic maps; charges lie far from the border
-    solution_.spline_order = 4;
-    g_.assign(lattice.n_points(), 0.0F);
+    y_.assign(lattice.n_points(), 0.0F);
   }
 
-  /// Adds S^t y to the sums of unit charges, and leaves the gradient on the border in g_.
+  /// Adds S^t y to the sums of unit charges, and leaves the gradient on the border.
   /// @param reading g, on this grid's points
   /// @param sums    [charge]
   void add_inner(const SparseValues& reading, const AfterCycle& step, std::vector<double>& sums) {
@@ -61,9 +59,10 @@ struct TransposedProblem {
     set_border_gradient(border);
   }
 
-  /// Adds B^t g_ of Debye-Hueckel values on the border.
+  /// Adds B^t of the gradient, of Debye-Hueckel values on the border.
   void add_border(std::vector<double>& sums) {
-    const std::vector<double> far = debye_hueckel_transposed(atoms_, lattice_, border_law(constants_, origin_.pb), g_);
+    const std::vector<double> far =
+        debye_hueckel_transposed(atoms_, lattice_, border_law(constants_, origin_.pb), work_->r);
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += far[i];
   }
 
@@ -76,31 +75,34 @@ struct TransposedProblem {
     return false;
   }
 
-  /// Adds values to g_.
-  void add_to_g(const SparseValues& values) {
+  static void add_to(Buffer<float>& g, const SparseValues& values) {
     const Buffer<std::size_t> points = to_device(values.point);
     const Buffer<float> added = to_device(values.value);
     const std::size_t* const point = raw(points);
     const float* const value = raw(added);
-    float* const g = raw(g_);
-    for_each_index(points.size(), [=] ESPDIFF_HD(std::size_t n) { g[point[n]] += value[n]; });
+    float* const to = raw(g);
+    for_each_index(points.size(), [=] ESPDIFF_HD(std::size_t n) { to[point[n]] += value[n]; });
   }
 
   /// y = A_ii^-1 g.
   void solve(const SparseValues& inner, const AfterCycle& step) {
-    g_.assign(g_.size(), 0.0F);
-    solution_.values.assign(g_.size(), 0.0F);
-    add_to_g(inner);
+    y_.assign(y_.size(), 0.0F);
+    const RightHandSide set_g = [&](Buffer<float>& g) {
+      g.assign(y_.size(), 0.0F);
+      add_to(g, inner);
+    };
     SolverOptions solver;
     solver.tolerance = origin_.pb.tolerance;
     solver.max_cycles = origin_.pb.max_cycles;
-    solver.norm = std::sqrt(dot_product(g_, g_));
+    solver.norm = 0;
+    for (const float value : inner.value) solver.norm += static_cast<double>(value) * static_cast<double>(value);
+    solver.norm = std::sqrt(solver.norm);
     if (solver.norm == 0) return;
-    const SolverReport solved = conjugate_gradients(on_grid_, *multigrid_, g_, solver, *work_, solution_.values, step);
+    const SolverReport solved = conjugate_gradients(on_grid_, *multigrid_, set_g, solver, *work_, y_, step);
     require_converged(origin_.pb, solved, 0);
   }
 
-  /// S^t y: the spline of each charge over y.
+  /// S^t y: the spline of each charge over y, in double precision, since many charges' parts cancel.
   void add_charges(std::vector<double>& sums) const {
     std::vector<Vec3d> places;
     const double h = static_cast<double>(lattice_.spacing);
@@ -110,19 +112,46 @@ struct TransposedProblem {
         u[axis] = (atom.position[axis] - static_cast<double>(lattice_.origin[axis])) / h;
       places.push_back(u);
     }
-    const std::vector<float> found = values_at(solution_, places);
+    const Buffer<Vec3d> sent = to_device(places);
+    Buffer<double> found(places.size());
+    const Vec3d* const at = raw(sent);
+    double* const out = raw(found);
+    const float* const y = raw(y_);
+    const GridSize size = grid_size_;
+    for_each_index(places.size(), [=] ESPDIFF_HD(std::size_t i) {
+      constexpr int kCubic = 4;
+      const int n[3] = {size.nx, size.ny, size.nz};
+      int base[3];
+      double weight[3][kCubic];
+      for (int axis = 0; axis < 3; ++axis) {
+        const SplinePlace place = spline_place(at[i][axis], kCubic, n[axis]);
+        base[axis] = place.base;
+        spline_weights<kCubic>(place.part, weight[axis]);
+      }
+      double sum = 0;
+      for (int c = 0; c < kCubic; ++c) {
+        for (int b = 0; b < kCubic; ++b) {
+          const float* const row = y + size.index(base[0], base[1] + b, base[2] + c);
+          double along = 0;
+          for (int a = 0; a < kCubic; ++a) along += weight[0][a] * static_cast<double>(row[a]);
+          sum += weight[2][c] * weight[1][b] * along;
+        }
+      }
+      out[i] = sum;
+    });
+    const std::vector<double> values = to_host(found);
     const double scale = charge_scale(lattice_, constants_.coulomb);
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += scale * static_cast<double>(found[i]);
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += scale * values[i];
   }
 
-  /// g_ = the reading's gradient on the border: g_b - A_bi y.
+  /// The solver's r = the reading's gradient on the border, g_b - A_bi y.
   void set_border_gradient(const SparseValues& border) {
     const GridSize size = grid_size_;
     const float* const ex = raw(on_grid_.ex);
     const float* const ey = raw(on_grid_.ey);
     const float* const ez = raw(on_grid_.ez);
-    const float* const y = raw(solution_.values);
-    float* const g = raw(g_);
+    const float* const y = raw(y_);
+    float* const g = raw(work_->r);
     for_each_index(size.points(), [=] ESPDIFF_HD(std::size_t p) {
       const int n[3] = {size.nx, size.ny, size.nz};
       const std::size_t step[3] = {1, size.row(), size.plane()};
@@ -142,27 +171,28 @@ struct TransposedProblem {
       }
       g[p] = n_faces == 1 ? value : 0.0F;  // points of two faces have no inner neighbour
     });
-    add_to_g(border);
+    add_to(work_->r, border);
   }
 
-  std::vector<float> values_of_g(const std::vector<std::size_t>& points) const {
+  std::vector<float> gradient_at(const std::vector<std::size_t>& points) const {
     const Buffer<std::size_t> on_device = to_device(points);
     Buffer<float> values(points.size());
     const std::size_t* const point = raw(on_device);
-    const float* const g = raw(g_);
+    const float* const g = raw(work_->r);
     float* const value = raw(values);
     for_each_index(points.size(), [=] ESPDIFF_HD(std::size_t n) { value[n] = g[point[n]]; });
     return to_host(values);
   }
 
-  /// The transpose of samples on the border of a grid that lies within `around`: g_ as weights of places in it.
+  /// The transpose of samples on the border of a grid that lies within `around`: the gradient as weights of places in
+  /// it.
   WeightedPlaces border_in(const MapGrid& around) const {
     std::vector<std::size_t> points;
-    for (std::size_t p = 0; p < g_.size(); ++p) {
+    for (std::size_t p = 0; p < y_.size(); ++p) {
       if (is_border(p)) points.push_back(p);
     }
-    const std::vector<float> gradient = values_of_g(points);
-    const Lattice& own = solution_.lattice;
+    const std::vector<float> gradient = gradient_at(points);
+    const Lattice& own = own_;
     WeightedPlaces border;
     for (std::size_t n = 0; n < points.size(); ++n) {
       const std::size_t p = points[n];
@@ -185,13 +215,13 @@ struct TransposedProblem {
   const MapOrigin& origin_;
   const std::vector<PbAtom>& atoms_;  ///< that are charged, in the order of the input; then the probes
   PbConstants constants_;
+  Lattice own_;
   CubicLattice lattice_;
   GridSize grid_size_;
   GridOperator on_grid_;
   std::unique_ptr<Multigrid> multigrid_;
   std::unique_ptr<SolverWork> work_;
-  MapGrid solution_;  ///< y
-  Buffer<float> g_;
+  Buffer<float> y_;
 };
 
 std::vector<PbAtom> atoms_and_probes(const MapOrigin& origin, const std::vector<ProbeCharge>& probes) {

@@ -117,7 +117,7 @@ std::vector<GridCharge> place_charges(const std::vector<Vec3d>& places, const st
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (charges[i] == 0) continue;
     GridCharge c{};
-    c.charge = static_cast<float>(charges[i]);
+    c.charge = static_cast<double>(charges[i]);
     for (int axis = 0; axis < 3; ++axis) c.u[axis] = places[i][axis];
     placed.push_back(c);
   }

@@ -17,7 +17,7 @@ namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
 /// b = 4 pi C q / h, the charges spread by cubic B-splines.
-Buffer<float> right_hand_side(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, double coulomb) {
+SortedCharges<double> charges_on_grid(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, double coulomb) {
   std::vector<GridCharge> placed;
   const double h = static_cast<double>(lattice.spacing), scale = charge_scale(lattice, coulomb);
   for (const PbAtom& atom : atoms) {
@@ -25,20 +25,11 @@ Buffer<float> right_hand_side(const std::vector<PbAtom>& atoms, const CubicLatti
     GridCharge c{};
     for (int axis = 0; axis < 3; ++axis)
       c.u[axis] = (atom.position[axis] - static_cast<double>(lattice.origin[axis])) / h;
-    c.charge = static_cast<float>(scale * static_cast<double>(atom.charge));
+    c.charge = scale * static_cast<double>(atom.charge);
     placed.push_back(c);
   }
   constexpr int kCubic = 4;
-  const auto sorted =
-      sort_charges<float>(std::move(placed), {lattice.size[0], lattice.size[1], lattice.size[2]}, kCubic);
-  Buffer<float> b(lattice.n_points());
-  const std::size_t plane = lattice.index(0, 0, 1);
-#if defined(ESPDIFF_BACKEND_CUDA)
-  spread_by_points(sorted, raw(b), plane);
-#else
-  spread_by_slabs(sorted, raw(b), plane);
-#endif
-  return b;
+  return sort_charges<double>(std::move(placed), {lattice.size[0], lattice.size[1], lattice.size[2]}, kCubic);
 }
 
 /// Sets the border of phi to trilinear samples of a wider map.
@@ -72,6 +63,17 @@ void start_from(const MapGrid& start, const Lattice& lattice, Buffer<float>& phi
   for_each_index(phi.size(), [=] ESPDIFF_HD(std::size_t p) { to[p] = is_finite(from[p]) ? from[p] : 0.0F; });
 }
 
+/// Whether a potential of these charges is worth starting from: farther apart, its residual would be above that of
+/// zero.
+bool is_near(const MapGrid& start, const std::vector<Vec3d>& positions) {
+  constexpr double kFarthest_A = 0.2;
+  if (start.origin == nullptr || start.origin->positions.size() != positions.size()) return false;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (norm(positions[i] - start.origin->positions[i]) > kFarthest_A) return false;
+  }
+  return true;
+}
+
 /// Inputs of a solution, on any grid.
 struct Problem {
   const std::vector<PbAtom>& atoms;
@@ -86,12 +88,14 @@ void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& p
   GridOperator on_grid;
   fill_pb_operator(problem.atoms, lattice, problem.constants, options, on_grid);
   problem.progress.report("potential", 0.2);
-  const Buffer<float> b = right_hand_side(problem.atoms, lattice, problem.constants.coulomb);
+  const SortedCharges<double> charges = charges_on_grid(problem.atoms, lattice, problem.constants.coulomb);
+  const RightHandSide b = [&](Buffer<float>& values) { spread_rounded(charges, raw(values)); };
   SolverWork work(lattice.n_points());
   SolverOptions solver;
   solver.tolerance = options.tolerance;
   solver.max_cycles = options.max_cycles;
-  solver.norm = std::sqrt(dot_product(b, b));
+  b(work.r);
+  solver.norm = std::sqrt(dot_product(work.r, work.r));
   const auto step = [&](double residual) {
     const double part = std::log(residual) / std::log(options.tolerance);
     problem.progress.report("potential", 0.2 + 0.8 * std::min(1.0, std::max(0.0, part)));
@@ -99,7 +103,8 @@ void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& p
   SolverReport solved;
   if (options.nonlinear && options.ionic_strength > 0) {
     const Buffer<float> k = on_grid.diagonal;
-    const NewtonReport newton_report = newton(on_grid, k, b, solver, options.max_newton_steps, work, phi, step);
+    const NewtonReport newton_report =
+        newton(on_grid, k, Buffer<float>(work.r), solver, options.max_newton_steps, work, phi, step);
     solved = newton_report.solver;
     report.newton_steps = newton_report.steps;
   } else {
@@ -148,7 +153,7 @@ std::shared_ptr<MapGrid> poisson_boltzmann(const std::vector<Vec3d>& positions, 
   set_index_transform(map->lattice, to_map, "the potential", map->to_index);
   map->values.assign(lattice.n_points(), 0.0F);
   progress.report("potential", 0.0);
-  if (start != nullptr) start_from(*start, on_lattice, map->values);
+  if (start != nullptr && is_near(*start, positions)) start_from(*start, on_lattice, map->values);
   set_border(problem, on_lattice, lattice, map->values);
   progress.report("potential", 0.1);
   PoissonBoltzmannReport told;

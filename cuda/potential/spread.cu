@@ -229,6 +229,26 @@ void spread_points_of_order(const SortedCharges<T>& charges, T* values, std::siz
   });
 }
 
+template <int Order>
+void spread_rounded_of_order(const SortedCharges<double>& charges, float* values) {
+  const ChargesView<double> view = view_of(charges);
+  const std::size_t nx = static_cast<std::size_t>(charges.size[0]), ny = static_cast<std::size_t>(charges.size[1]),
+                    nz = static_cast<std::size_t>(charges.size[2]);
+#if defined(ESPDIFF_BACKEND_CUDA)
+  for_each_index(nx * ny * nz, [=] ESPDIFF_HD(std::size_t i) {
+    values[i] = static_cast<float>(gather_point<Order>(view, static_cast<int>(i % nx), static_cast<int>(i / nx % ny),
+                                                       static_cast<int>(i / (nx * ny))));
+  });
+#else
+  for_each_index(nz, [=](std::size_t z) {
+    std::vector<double> slab(nx * ny);
+    fill_slab(std::integral_constant<int, Order>(), view, static_cast<int>(z), slab.data());
+    std::transform(slab.begin(), slab.end(), values + z * slab.size(),
+                   [](double value) { return static_cast<float>(value); });
+  });
+#endif
+}
+
 template <int Order, typename T>
 void spread_slabs_of_order(const SortedCharges<T>& charges, T* values, std::size_t slab_stride) {
   const ChargesView<T> view = view_of(charges);
@@ -263,6 +283,11 @@ void spread_by_points(const SortedCharges<T>& charges, T* values, std::size_t sl
   with_spline_order(charges.order, [&](auto constant) {
     spread_points_of_order<decltype(constant)::value>(charges, values, slab_stride);
   });
+}
+
+void spread_rounded(const SortedCharges<double>& charges, float* values) {
+  with_spline_order(charges.order,
+                    [&](auto constant) { spread_rounded_of_order<decltype(constant)::value>(charges, values); });
 }
 
 template SortedCharges<float> sort_charges(std::vector<GridCharge>, std::array<int, 3>, int);

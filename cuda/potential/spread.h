@@ -12,7 +12,7 @@ namespace espdiff::ESPDIFF_BACKEND {
 /// A charge in its cell: grid coordinates u, 0 <= u < size along each axis.
 struct GridCharge {
   double u[3];
-  float charge;
+  double charge;
   std::uint32_t row;  ///< base_y + size_y * base_z of the grid points that it touches
   int base_x;
 };
@@ -38,5 +38,8 @@ void spread_by_slabs(const SortedCharges<T>& charges, T* values, std::size_t sla
 /// The same, each grid point gathering from the charges that touch it.
 template <typename T>
 void spread_by_points(const SortedCharges<T>& charges, T* values, std::size_t slab_stride);
+
+/// The sums in double precision, each rounded once; slabs follow each other.
+void spread_rounded(const SortedCharges<double>& charges, float* values);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

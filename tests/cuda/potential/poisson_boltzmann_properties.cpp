@@ -247,7 +247,7 @@ TEST_CASE("what is refused, and how") {
   huge.size = {2001, 2001, 2001};
   huge.origin = {-1000, -1000, -1000};
   const std::string too_many = refusal(*engine, ion, huge, options);
-  CHECK(too_many.find("a grid of 2001 x 2001 x 2001 points needs 417 GB of memory, and ") == 0);
+  CHECK(too_many.find("a grid of 2001 x 2001 x 2001 points needs 385 GB of memory, and ") == 0);
   CHECK(too_many.find(" A would fit") != std::string::npos);
   options.max_cycles = 2;
   CHECK(refusal(*engine, ion, lattice, options)

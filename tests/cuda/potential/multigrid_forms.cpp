@@ -1,0 +1,139 @@
+// multigrid_forms.cpp: a multigrid cycle in passes over planes gives the bits of its single steps, at any number of
+// threads, and is symmetric. Compiled with the CPU back end's flags, because the engine's interface offers neither.
+#include <doctest/doctest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <vector>
+
+#include "cuda/potential/multigrid.h"
+#include "support/random.h"
+
+using namespace espdiff_test;
+using namespace espdiff::cpu_backend;
+
+namespace {
+
+/// Faces between those of a solute and of water, ions at some points.
+GridOperator random_operator(GridSize size, Random& random) {
+  GridOperator a;
+  a.size = size;
+  for (Buffer<float>* buffer : {&a.ex, &a.ey, &a.ez, &a.diagonal}) buffer->assign(size.points(), 0.0F);
+  for (std::size_t p = 0; p < size.points(); ++p) {
+    for (Buffer<float>* faces : {&a.ex, &a.ey, &a.ez}) raw(*faces)[p] = random.uniform(0, 1) < 0.5 ? 2.0F : 78.54F;
+    raw(a.diagonal)[p] = random.uniform(0, 1) < 0.3 ? 0.5F : 0.0F;
+  }
+  add_faces_to_diagonal(a);
+  return a;
+}
+
+/// Random inside, zero on the border.
+Buffer<float> random_values(GridSize size, Random& random) {
+  Buffer<float> values(size.points(), 0.0F);
+  for (int k = 1; k < size.nz - 1; ++k) {
+    for (int j = 1; j < size.ny - 1; ++j) {
+      for (int i = 1; i < size.nx - 1; ++i)
+        raw(values)[size.index(i, j, k)] = static_cast<float>(random.uniform(-1, 1));
+    }
+  }
+  return values;
+}
+
+std::size_t n_different(const Buffer<float>& a, const Buffer<float>& b) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) n += raw(a)[i] == raw(b)[i] ? 0 : 1;
+  return n;
+}
+
+/// Runs with so many threads.
+class Threads {
+ public:
+  explicit Threads(int n) : before_(omp_get_max_threads()) { omp_set_num_threads(n); }
+  ~Threads() { omp_set_num_threads(before_); }
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
+ private:
+  int before_;
+};
+
+// The last three are run by several threads; the second and the last have axes that are no multiple of two plus one.
+const GridSize kSizes[] = {{9, 9, 9}, {12, 10, 9}, {33, 25, 41}, {25, 33, 65}, {30, 26, 44}};
+
+}  // namespace
+
+TEST_SUITE_BEGIN("multigrid");
+
+TEST_CASE("a cycle in passes has the bits of its single steps, at any number of threads") {
+  for (const GridSize& size : kSizes) {
+    Random random(7);
+    const GridOperator a = random_operator(size, random);
+    const Buffer<float> r = random_values(size, random);
+    Buffer<float> by_points(size.points(), 0.0F);
+    Multigrid(a).precondition_by_points(r, by_points);
+    CHECK(dot_product(by_points, by_points) > 0);
+    double product = 0;
+    for (const int n : {1, 2, 3, 4}) {
+      const Threads threads(n);
+      Buffer<float> z(size.points(), 0.0F);
+      const double found = Multigrid(a).precondition(r, z);
+      CAPTURE(size.nz);
+      CAPTURE(n);
+      CHECK(n_different(z, by_points) == 0);
+      CHECK(found == doctest::Approx(dot_product(r, z)).epsilon(1e-12));
+      if (n > 1) CHECK(found == product);
+      product = found;
+    }
+  }
+}
+
+TEST_CASE("the direction and its image in one pass are those of two, at any number of threads") {
+  for (const GridSize& size : kSizes) {
+    Random random(8);
+    const GridOperator a = random_operator(size, random);
+    const Buffer<float> z = random_values(size, random), p = random_values(size, random);
+    constexpr float kBeta = 0.37F;
+    Buffer<float> direction(size.points(), 0.0F), image(size.points(), 0.0F);
+    for (std::size_t i = 0; i < size.points(); ++i) raw(direction)[i] = raw(z)[i] + kBeta * raw(p)[i];
+    apply_operator(a, direction, image);
+    for (const int n : {1, 2, 4}) {
+      const Threads threads(n);
+      Buffer<float> own_z = z, own_p = p;
+      const double product = Multigrid(a).turn_and_apply(kBeta, own_z, own_p);
+      CHECK(n_different(own_p, direction) == 0);
+      CHECK(n_different(own_z, image) == 0);
+      CHECK(product == doctest::Approx(dot_product(direction, image)).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("the cycle is symmetric and positive, as conjugate gradients need it") {
+  Random random(9);
+  const GridSize size{33, 25, 41};
+  const GridOperator a = random_operator(size, random);
+  const Buffer<float> x = random_values(size, random), y = random_values(size, random);
+  Buffer<float> of_x(size.points(), 0.0F), of_y(size.points(), 0.0F);
+  Multigrid multigrid(a);
+  const double xx = multigrid.precondition(x, of_x), yy = multigrid.precondition(y, of_y);
+  CHECK(xx > 0);
+  CHECK(yy > 0);
+  CHECK(std::fabs(dot_product(y, of_x) - dot_product(x, of_y)) < 2e-6 * std::sqrt(xx * yy));
+}
+
+TEST_CASE("a step along the direction changes x and the residual, and returns the residual's square") {
+  const std::size_t n = 40001;
+  Random random(10);
+  Buffer<float> p(n, 0.0F), q(n, 0.0F), x(n, 0.0F), r(n, 0.0F);
+  for (Buffer<float>* values : {&p, &q, &x, &r}) {
+    for (std::size_t i = 0; i < n; ++i) raw(*values)[i] = static_cast<float>(random.uniform(-1, 1));
+  }
+  const Buffer<float> x_before = x, r_before = r;
+  const double square = advance(0.25F, p, q, x, r);
+  for (std::size_t i = 0; i < n; i += 777) {
+    CHECK(raw(x)[i] == raw(x_before)[i] + 0.25F * raw(p)[i]);
+    CHECK(raw(r)[i] == raw(r_before)[i] - 0.25F * raw(q)[i]);
+  }
+  CHECK(square == doctest::Approx(dot_product(r, r)).epsilon(1e-12));
+}
+
+TEST_SUITE_END();
