@@ -407,6 +407,7 @@ struct Series::Steps {
     StageClock clock(time_ms);
     check_maps(source, target);  // before any work
     check_causes(options, source, target);
+    if (!has_map(source)) refuse_fields_of_potential(fields);
     const StateFields target_fields = make_state_fields(fields, *target.molecule, FieldSide::kTarget);
     progress.report("align", 0.0);
     const CommonFrame frame = align(*source.molecule, *target.molecule, options, result);

@@ -17,6 +17,9 @@ using StateFields = std::vector<StateField>;
 /// Makes the fields of a state. @throws InputError naming the field
 StateFields make_state_fields(const std::vector<Field>& fields, const Molecule& molecule, FieldSide side);
 
+/// @throws InputError naming the first field that is made of the potential
+void refuse_fields_of_potential(const std::vector<Field>& fields);
+
 /// One side's fields, and where they are read.
 struct FieldsOfSide {
   const StateFields& fields;
