@@ -35,4 +35,11 @@ void compare_fields(Engine& engine, const std::vector<Field>& fields, const Fiel
                     const FieldsOfSide& target, const CompareOptions& options, const std::vector<MeasuredPart>& parts,
                     MappedStep& step);
 
+/// @throws InputError naming a request for patches of the potential
+void refuse_patches_of_potential(const CompareOptions& options);
+
+/// Finds the patches that the options ask for, of the finished fields and potentials. A request that finds none in
+/// either state becomes a warning with the values that there are.
+void find_patches_of_fields(const CompareOptions& options, CompareResult& result);
+
 }  // namespace espdiff
