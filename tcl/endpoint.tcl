@@ -42,6 +42,8 @@ namespace eval ::espdiff {
         }
         if {[value_or $endpoint map none] ni {none {}}} {
             dict set result map [make_map [dict get $endpoint map] $endpoint $role temporary]
+        } else {
+            dict set result shapes_because [value_or $endpoint because ""]
         }
         return $result
     }

@@ -144,7 +144,6 @@ namespace eval ::espdiff {
         # What cannot be read is refused where it is read, by its role.
         if {[catch { usual_potential_of $endpoints } choice]} { return $endpoints }
         lassign $choice kind because
-        if {$kind eq "none"} { return $endpoints }
         set result {}
         foreach endpoint $endpoints { lappend result [dict merge $endpoint [list map $kind because $because]] }
         return $result

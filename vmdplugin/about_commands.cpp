@@ -18,7 +18,7 @@
 #include "option_spelling.h"
 #include "page/page_texts.h"
 #include "plot/colour_map.h"
-#include "potential/choose_potential.h"
+#include "potential/potential_plan.h"
 #include "potential/potential_settings.h"
 #include "prepare/pdb2pqr.h"
 #include "report/metrics.h"
@@ -226,7 +226,7 @@ Tcl_Obj* usual_potential(const Call& call) {
   const PotentialChoice choice = choose_potential("auto", "auto", molecules);
   std::string kind = choice.method ? to_string(*choice.method) : std::string("none");
   for (const auto& [key, value] : with_salt(choice, {})) kind += " " + key + " " + value;
-  return to_list({kind, choice.because});
+  return to_list({kind, reason_in_full(choice)});
 }
 
 Tcl_Obj* abi(const Call&) {

@@ -11,8 +11,8 @@
 
 namespace espdiff::vmdplugin {
 
-void take_averaged_map(DictReader& reader, const std::string& volume, Endpoint& endpoint) {
-  const std::string what = endpoint.role + " map";
+void take_averaged_map(DictReader& reader, const std::string& volume, const std::string& role, State& state) {
+  const std::string what = role + " map";
   MapRecipe recipe;
   recipe.method = PotentialMethod::kPme;
   recipe.because = reader.text("because");
@@ -38,8 +38,8 @@ void take_averaged_map(DictReader& reader, const std::string& volume, Endpoint& 
     recipe.cell.edges[axis] = static_cast<double>(lattice.size[axis]) * lattice.step[axis];
     recipe.cell.centre += 0.5 * (lattice.size[axis] - 1) * lattice.step[axis];
   }
-  endpoint.inputs.push_back({endpoint.role + "_map", potential_label(recipe), fingerprint(*mean)});
-  endpoint.averaged_map = averaged_map(std::move(*mean), std::move(recipe));
+  state.map_input = {{}, potential_label(recipe), fingerprint(*mean)};
+  state.make_map = averaged_map(std::move(*mean), std::move(recipe));
 }
 
 }  // namespace espdiff::vmdplugin

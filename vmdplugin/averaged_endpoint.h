@@ -11,6 +11,6 @@ namespace espdiff::vmdplugin {
 /// Makes the volume in memory the endpoint's computed potential: the mean of PME over the frames around the endpoint's.
 /// @param reader mean_over N, charges LIST (of the frame), ?water B?, ?name TEXT?, ?because TEXT?, settings of PME
 /// @throws InputError
-void take_averaged_map(DictReader& reader, const std::string& volume, Endpoint& endpoint);
+void take_averaged_map(DictReader& reader, const std::string& volume, const std::string& role, State& state);
 
 }  // namespace espdiff::vmdplugin

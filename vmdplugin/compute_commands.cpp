@@ -1,7 +1,6 @@
 // compute_commands.cpp: compare and surface start jobs of the worker; status, wait, cancel and delete manage them.
 #include "base/error.h"
 #include "commands.h"
-#include "compare/compare.h"
 #include "compare/options.h"
 #include "compare/result.h"
 #include "compare/settings.h"
@@ -16,9 +15,7 @@
 #include "io/write_pqr.h"
 #include "prepare/input_files.h"
 #include "prepare/load_state.h"
-#include "prepare/region.h"
 #include "prepare/surface_radii.h"
-#include "report/state_report.h"
 #include "system/this_process.h"
 #include "tcl_values.h"
 
@@ -48,45 +45,15 @@ Computation parse_computation(Tcl_Obj* options, bool* regularize) {
 }
 
 /// Runs on the worker's thread.
-void run_comparison(ComparisonObject& c, const Progress& progress) {
-  progress.report("read", 0.0);
-  const std::unique_ptr<Engine> engine = engine_for(c.computation);
-  const CompareOptions& options = c.computation.options;
-  load(c.source, options, nullptr, progress);
-  load(c.target, options, &c.source, progress);
-  if (!c.source.structure_path.empty() && !c.target.structure_path.empty())
-    check_left_out(options.input, {&c.source.state, &c.target.state});
-  for (Endpoint* side : {&c.source, &c.target}) {
-    for (KeptFile& kept : kept_structure(side->role, side->state)) c.kept.push_back(std::move(kept));
-    if (side->state.preparation)
-      c.provenance.preparations.emplace_back(side->role, std::make_shared<Preparation>(*side->state.preparation));
-  }
-  const auto whole = [](const Endpoint& side) -> const Molecule& {
-    return side.state.whole.size() > 0 ? side.state.whole : *side.molecule;
-  };
-  add_parts(c.source,
-            source_parts(*c.source.molecule, whole(c.source), *c.target.molecule, whole(c.target), options.input));
-  const std::string radii_note = set_surface_radii({&*c.source.molecule, &*c.target.molecule}, options.input.radii);
-  c.provenance.device = engine->back_end();
-  c.provenance.device_description = engine->description();
-  c.provenance.threads = engine->n_threads();
-  c.provenance.command_line = c.computation.command_line;
-  c.provenance.inputs = c.source.inputs;
-  c.provenance.inputs.insert(c.provenance.inputs.end(), c.target.inputs.begin(), c.target.inputs.end());
-  c.result = compare(*engine, input_of(c.source), input_of(c.target), options, progress);
-  note_states(c.result, c.source.state, c.target.state, radii_note);
-}
-
-/// Runs on the worker's thread.
 void run_preparation(PreparationObject& p, const Progress& progress) {
   const InputOptions& options = p.computation.options.input;
-  LoadedState& state = p.molecule.state;
-  if (p.molecule.molecule) {
-    state.molecule = without_repeated_atoms(*p.molecule.molecule);
-    state.n_left_out = p.molecule.molecule->size() - state.molecule.size();
+  LoadedState& state = p.state;
+  if (p.molecule.path.empty()) {
+    state.molecule = without_repeated_atoms(p.molecule.molecule);
+    state.n_left_out = p.molecule.molecule.size() - state.molecule.size();
     state.preparation = charge_molecule(state.molecule, options, {}, state.charge_files, progress);
   } else {
-    state = load_state(StructureFile(p.molecule.structure_path), {p.molecule.structure}, options, progress);
+    state = load_state(StructureFile(p.molecule.path), {p.molecule.structure}, options, progress);
     check_left_out(options, {&state});
   }
   AtomicFile file(p.path);
@@ -102,7 +69,7 @@ Tcl_Obj* prepare_command(const Call& call) {
   object->computation = parse_computation(call.arguments[1], nullptr);
   object->path = call.text(2);
   std::vector<std::string> inputs = input_files(object->computation.options.input);
-  inputs.push_back(object->molecule.structure_path);
+  inputs.push_back(object->molecule.path);
   check_outputs(inputs, {object->path});
   AtomicFile probe(object->path);
   object->job = Worker::instance().submit([keep = std::weak_ptr<PreparationObject>(object)](const Progress& progress) {
@@ -115,11 +82,14 @@ Tcl_Obj* prepare_command(const Call& call) {
 Tcl_Obj* compare_command(const Call& call) {
   auto object = std::make_shared<ComparisonObject>();
   object->computation = parse_computation(call.arguments[2], nullptr);
-  object->source = parse_endpoint(call.arguments[0], "source");
-  object->target = parse_endpoint(call.arguments[1], "target");
+  object->study = {shared_endpoint(call.arguments[0], "source"), shared_endpoint(call.arguments[1], "target"),
+                   object->computation.options};
+  object->study.each_by_itself = true;
+  object->study.command_line = object->computation.command_line;
   // A weak pointer: the object owns its job, and would never be freed.
   object->job = Worker::instance().submit([keep = std::weak_ptr<ComparisonObject>(object)](const Progress& progress) {
-    if (const auto alive = keep.lock()) run_comparison(*alive, progress);
+    if (const auto alive = keep.lock())
+      static_cast<PairAnswer&>(*alive) = run_pair(alive->study, *engine_for(alive->computation), progress);
   });
   return to_obj(call.handles.add(object));
 }
@@ -128,17 +98,20 @@ Tcl_Obj* surface(const Call& call) {
   bool regularize = false;
   auto object = std::make_shared<SurfaceObject>();
   object->computation = parse_computation(call.arguments[1], &regularize);
-  object->molecule = parse_endpoint(call.arguments[0], "molecule");
+  object->given = shared_endpoint(call.arguments[0], "molecule");
   object->job =
       Worker::instance().submit([keep = std::weak_ptr<SurfaceObject>(object), regularize](const Progress& progress) {
         const auto alive = keep.lock();
         if (alive == nullptr) return;
         progress.report("read", 0.0);
         const std::unique_ptr<Engine> engine = engine_for(alive->computation);
-        load(alive->molecule, alive->computation.options, nullptr, progress);
-        set_surface_radii({&*alive->molecule.molecule}, alive->computation.options.input.radii);
-        alive->result =
-            make_surface(*engine, input_of(alive->molecule), alive->computation.options, regularize, progress);
+        const CompareOptions& options = alive->computation.options;
+        StateReader reader({options, {}, true}, {alive->given}, progress);
+        ComparedState state = reader.read(StateRole::kOnly);
+        reader.add_maps({&state});
+        set_surface_radii({&state.loaded.molecule}, options.input.radii);
+        alive->result = make_surface(*engine, state.side(), options, regularize, progress);
+        alive->molecule = std::move(state.loaded.molecule);
       });
   return to_obj(call.handles.add(object));
 }

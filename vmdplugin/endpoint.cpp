@@ -10,17 +10,11 @@
 #include "averaged_endpoint.h"
 #include "base/error.h"
 #include "base/vector.h"
-#include "compare/options.h"
 #include "fingerprint.h"
 #include "io/molecule_builder.h"
-#include "io/read_dx.h"
 #include "io/read_grid.h"
-#include "io/structure_file.h"
 #include "molfile_bridge.h"
-#include "potential/choose_potential.h"
 #include "potential/potential.h"
-#include "report/provenance.h"
-#include "report/state_report.h"
 #include "tcl_values.h"
 #include "whole_molecule.h"
 
@@ -75,13 +69,13 @@ VmdAtom atom_of(Tcl_Obj* description, const std::string& what) {
   return atom;
 }
 
-void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
-  const std::string name = reader.text("name", endpoint.role);
-  const std::vector<Tcl_Obj*> atoms = to_vector(reader.require("atoms"), endpoint.role + " atoms");
+void parse_vmd_molecule(DictReader& reader, const std::string& role, State& state) {
+  const std::string name = reader.text("name", role);
+  const std::vector<Tcl_Obj*> atoms = to_vector(reader.require("atoms"), role + " atoms");
   const std::vector<Vec3f> positions = positions_of(reader.require("coordinates"), name);
   std::vector<Tcl_Obj*> indices;
   if (Tcl_Obj* const list = reader.find("indices")) {
-    indices = to_vector(list, endpoint.role + " indices");
+    indices = to_vector(list, role + " indices");
     if (indices.size() != atoms.size())
       throw InputError(name + ": " + std::to_string(indices.size()) + " indices for " + std::to_string(atoms.size()) +
                        " atoms");
@@ -107,47 +101,48 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
       builder.add(atom.entry, atom.charge, atom.radius);
     }
   }
-  endpoint.molecule = builder.finish();
-  endpoint.molecule->radii_origin = radii;
-  endpoint.molecule->charges = charges == ValueOrigin::kFile ? charge : std::vector<float>();
-  if (std::none_of(endpoint.molecule->radii.begin(), endpoint.molecule->radii.end(), [](float r) { return r > 0; }))
+  Molecule& molecule = state.molecule;
+  molecule = builder.finish();
+  molecule.radii_origin = radii;
+  molecule.charges = charges == ValueOrigin::kFile ? charge : std::vector<float>();
+  if (std::none_of(molecule.radii.begin(), molecule.radii.end(), [](float r) { return r > 0; }))
     throw InputError(name +
                      ": every radius is 0, so that there is no surface; load a file with radii (PQR), set them "
                      "(`$sel set radius`), or take `radii element`");
   std::string input = reader.text("input", name);
   const bool whole = reader.boolean("whole", false);
   if (Tcl_Obj* const numbers = reader.find("cell")) {
-    const std::optional<UnitCell> cell = parse_unit_cell(numbers, endpoint.role + " cell");
-    if (cell && make_whole(*endpoint.molecule, *cell, whole, endpoint.role) > 0) input += " whole 1";
+    const std::optional<UnitCell> cell = parse_unit_cell(numbers, role + " cell");
+    if (cell && make_whole(molecule, *cell, whole, role) > 0) input += " whole 1";
   }
-  endpoint.inputs.push_back({endpoint.role, input, fingerprint(*endpoint.molecule)});
+  state.is_selected = true;
+  state.input = {{}, input, fingerprint(molecule)};
   if (Tcl_Obj* const list = reader.find("region")) {
     std::set<std::size_t> chosen;
-    for (Tcl_Obj* const index : to_vector(list, endpoint.role + " region"))
-      chosen.insert(static_cast<std::size_t>(to_int(index, endpoint.role + " region")));
-    endpoint.parts.region.assign(endpoint.molecule->residues.size(), 0);
+    for (Tcl_Obj* const index : to_vector(list, role + " region"))
+      chosen.insert(static_cast<std::size_t>(to_int(index, role + " region")));
+    state.region.assign(molecule.residues.size(), 0);
     for (std::size_t i = 0; i < atoms.size(); ++i) {
       const std::size_t at = indices.empty() ? i : static_cast<std::size_t>(to_int(indices[i], "index"));
-      if (chosen.count(at) > 0)
-        endpoint.parts.region[static_cast<std::size_t>(endpoint.molecule->atoms[i].residue)] = 1;
+      if (chosen.count(at) > 0) state.region[static_cast<std::size_t>(molecule.atoms[i].residue)] = 1;
     }
   }
 }
 
 /// @param endpoint_reader of the map's endpoint, which has the coordinates and the cell
-void parse_map_request(DictReader& reader, DictReader& endpoint_reader, Endpoint& endpoint) {
-  MapRequest request;
+void parse_potential(DictReader& reader, DictReader& endpoint_reader, const std::string& role, State& state) {
+  StatePotential request;
   request.method = parse_potential_method(to_string(reader.require("kind")));
   request.because = reader.text("because");
   request.given = take_potential_settings(reader);
   make_potential_options(request.method, request.given, PmeOptions().temperature_K);  // reports a wrong one at once
   if (Tcl_Obj* const box = reader.find("box")) {
     if (request.method != PotentialMethod::kPme)
-      throw InputError(endpoint.role + " map: a cell was given, and only the potential pme has one; leave it out");
+      throw InputError(role + " map: a cell was given, and only the potential pme has one; leave it out");
     request.cell = parse_cell(to_string(box));
   }
   if (Tcl_Obj* const charges = reader.find("charges")) {
-    const std::string name = endpoint_reader.text("name", endpoint.role);
+    const std::string name = endpoint_reader.text("name", role);
     request.charges = charged_atoms(charges, endpoint_reader.require("coordinates"), name);
     for (Tcl_Obj* const radius : to_vector(reader.require("radii"), name + ", radii"))
       request.charges.radii.push_back(static_cast<float>(to_double(radius, name + ", radius")));
@@ -158,9 +153,9 @@ void parse_map_request(DictReader& reader, DictReader& endpoint_reader, Endpoint
     require_charges(request.charges);
   }
   if (Tcl_Obj* const cell = endpoint_reader.find("cell"))
-    request.surroundings.cell = parse_unit_cell(cell, endpoint.role + " cell");
+    request.surroundings.cell = parse_unit_cell(cell, role + " cell");
   reader.finish();
-  endpoint.map_request = std::move(request);
+  state.potential = std::move(request);
 }
 
 /// Whether a lattice repeats with the cell: its points cover each edge once, as those of PME's maps do. A lattice that
@@ -178,51 +173,56 @@ bool covers_cell(const Lattice& lattice, const UnitCell& cell) {
   return true;
 }
 
-void parse_map(Tcl_Obj* description, DictReader& endpoint_reader, Endpoint& endpoint) {
-  DictReader reader(description, endpoint.role + " map");
-  if (reader.find("kind") != nullptr) return parse_map_request(reader, endpoint_reader, endpoint);
-  endpoint.map_unit = reader.text("unit");
+void parse_map(Tcl_Obj* description, DictReader& endpoint_reader, const std::string& role, State& state) {
+  DictReader reader(description, role + " map");
+  if (reader.find("kind") != nullptr) return parse_potential(reader, endpoint_reader, role, state);
+  state.map_unit = reader.text("unit");
   if (Tcl_Obj* const memory = reader.find("memory")) {
     const std::string name = to_string(memory), label = reader.text("name", name);
-    if (reader.find("mean_over") != nullptr) return take_averaged_map(reader, name, endpoint);
+    if (reader.find("mean_over") != nullptr) return take_averaged_map(reader, name, role, state);
     reader.finish();
-    endpoint.map = take_volume(name);
-    if (!endpoint.map) throw InputError(endpoint.role + " map: no volume named '" + name + "' is in memory");
-    endpoint.map->name = label;
-    endpoint.map->contradicting_title = title_of_other_quantity(label);
-    if (!endpoint.map_unit.empty()) take_unit(endpoint.map_unit, *endpoint.map);
+    std::optional<Grid> map = take_volume(name);
+    if (!map) throw InputError(role + " map: no volume named '" + name + "' is in memory");
+    map->name = label;
+    map->contradicting_title = title_of_other_quantity(label);
+    if (!state.map_unit.empty()) take_unit(state.map_unit, *map);
     if (Tcl_Obj* const numbers = endpoint_reader.find("cell")) {
-      const std::optional<UnitCell> cell = parse_unit_cell(numbers, endpoint.role + " cell");
-      if (cell && covers_cell(endpoint.map->lattice, *cell)) endpoint.map->periodic = true;
+      const std::optional<UnitCell> cell = parse_unit_cell(numbers, role + " cell");
+      if (cell && covers_cell(map->lattice, *cell)) map->periodic = true;
     }
-    endpoint.inputs.push_back({endpoint.role + "_map", label, fingerprint(*endpoint.map)});
+    state.map_input = {{}, label, fingerprint(*map)};
+    state.map = std::make_shared<const Grid>(std::move(*map));
     return;
   }
-  endpoint.map_path = to_string(reader.require("file"));
-  endpoint.map_array = reader.text("array");
+  state.map_path = to_string(reader.require("file"));
+  state.map_array = reader.text("array");
   reader.find("name");
   reader.finish();
-  if (!endpoint.map_unit.empty()) parse_potential_unit(endpoint.map_unit);  // reports a wrong one at once
+  if (!state.map_unit.empty()) parse_potential_unit(state.map_unit);  // reports a wrong one at once
 }
 
 }  // namespace
 
-Endpoint parse_endpoint(Tcl_Obj* description, const std::string& role) {
-  Endpoint endpoint;
-  endpoint.role = role;
+State parse_endpoint(Tcl_Obj* description, const std::string& role) {
+  State state;
   DictReader reader(description, role);
   if (Tcl_Obj* const path = reader.find("file")) {
-    endpoint.structure_path = to_string(path);
-    endpoint.structure.model = reader.integer("model", 1);
-    endpoint.structure.include_hetero = reader.boolean("hetero", true);
-    endpoint.structure.include_water = reader.boolean("water", false);
+    state.path = to_string(path);
+    state.structure.model = reader.integer("model", 1);
+    state.structure.include_hetero = reader.boolean("hetero", true);
+    state.structure.include_water = reader.boolean("water", false);
   } else {
-    parse_vmd_molecule(reader, endpoint);
+    parse_vmd_molecule(reader, role, state);
   }
   reader.find("cell");
-  if (Tcl_Obj* const map = reader.find("map")) parse_map(map, reader, endpoint);
+  if (Tcl_Obj* const map = reader.find("map")) parse_map(map, reader, role, state);
+  state.shapes_because = reader.text("shapes_because");
   reader.finish();
-  return endpoint;
+  return state;
+}
+
+StatePtr shared_endpoint(Tcl_Obj* description, const std::string& role) {
+  return std::make_shared<const State>(parse_endpoint(description, role));
 }
 
 GivenPotentialSettings take_potential_settings(DictReader& reader) {
@@ -280,102 +280,6 @@ Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d
     builder.add(atom.entry);
   }
   return builder.finish();
-}
-
-namespace {
-
-/// The requested map. For a file with water in a cell, pme takes all of it; otherwise the endpoint's atoms.
-ComputedMap requested_map(Endpoint& endpoint, double temperature_K) {
-  MapRequest& request = *endpoint.map_request;
-  PotentialOptions options = make_potential_options(request.method, request.given, temperature_K);
-  options.cell = request.cell;
-  options.because = request.because;
-  if (request.charges.size() > 0) {
-    request.surroundings.solute = endpoint.molecule->positions;
-    return {std::move(request.charges), request.surroundings, options};
-  }
-  if (endpoint.everything) {
-    const auto& [everything, cell] = *endpoint.everything;
-    if (options.cell || potential_facts(everything, cell).has_solvent) return {everything, {cell, {}, false}, options};
-  }
-  return {*endpoint.molecule, request.surroundings, options};
-}
-
-}  // namespace
-
-bool wants_everything(const Endpoint& endpoint) {
-  if (!endpoint.map_request || endpoint.map_request->charges.size() > 0) return false;
-  const GivenPotentialSettings& given = endpoint.map_request->given;
-  const bool is_padded = std::any_of(given.begin(), given.end(), [](const auto& g) { return g.first == "pad"; });
-  return endpoint.map_request->method == PotentialMethod::kPme && !is_padded;
-}
-
-namespace {
-
-/// Reads a structure file as the command line does.
-StateRole role_of(const Endpoint& endpoint) {
-  if (endpoint.role == "source") return StateRole::kSource;
-  return endpoint.role == "target" ? StateRole::kTarget : StateRole::kOnly;
-}
-
-void load_file(Endpoint& endpoint, const CompareOptions& options, const Endpoint* source, const Progress& progress) {
-  const StructureFile file(endpoint.structure_path);
-  StateRequest request{endpoint.structure, role_of(endpoint)};
-  request.wants_charges = endpoint.map_request.has_value();
-  request.source = source != nullptr ? &*source->molecule : nullptr;
-  try {
-    endpoint.state = load_state(file, request, options.input, progress);
-  } catch (const InputError& error) {
-    if (!endpoint.map_request || endpoint.map_request->because.empty()) throw;
-    request.wants_charges = false;
-    load_state(file, request, options.input, progress);  // or was it the preparation?
-    throw InputError(error.message() + "; `map none` compares shapes alone");
-  }
-  const auto inputs =
-      state_inputs(endpoint.role, {endpoint.role, endpoint.structure_path, file.sha256(), nullptr, endpoint.structure},
-                   endpoint.state);
-  endpoint.inputs.insert(endpoint.inputs.end(), inputs.begin(), inputs.end());
-  endpoint.molecule = endpoint.state.molecule;
-  if (!wants_everything(endpoint)) return;
-  const int model = endpoint.structure.model;
-  endpoint.everything = Everything{
-      endpoint.state.everything.size() > 0 ? std::move(endpoint.state.everything) : file.read({model, true, true}),
-      endpoint.state.cell};
-}
-
-}  // namespace
-
-void load(Endpoint& endpoint, const CompareOptions& options, const Endpoint* source, const Progress& progress) {
-  const double temperature_K = options.temperature_K;
-  if (!endpoint.molecule) {
-    load_file(endpoint, options, source, progress);
-  } else if (endpoint.structure_path.empty()) {
-    refuse_options_of_files(options.input, role_of(endpoint),
-                            "the " + endpoint.role + " is a molecule of VMD; choose its atoms by `sel`");
-  }
-  if (endpoint.map || endpoint.computed_map || endpoint.averaged_map) return;
-  if (endpoint.map_request) {
-    endpoint.computed_map = requested_map(endpoint, temperature_K);
-    endpoint.inputs.push_back(computed_input(endpoint.role + "_map", *endpoint.computed_map));
-    return;
-  }
-  if (endpoint.map_path.empty()) return;
-  GridOptions grid;
-  grid.array = endpoint.map_array;
-  grid.unit = endpoint.map_unit;
-  GridFile map = read_grid_file(endpoint.map_path, grid);
-  endpoint.map = std::move(map.grid);
-  endpoint.inputs.push_back({endpoint.role + "_map", endpoint.map_path, std::move(map.sha256)});
-}
-
-void add_parts(Endpoint& endpoint, SurfaceParts parts) {
-  if (!parts.region.empty()) endpoint.parts.region = std::move(parts.region);
-  endpoint.parts.patches = std::move(parts.patches);
-}
-
-CompareInput input_of(const Endpoint& endpoint) {
-  return {&*endpoint.molecule, endpoint.map ? &*endpoint.map : nullptr,
-          endpoint.computed_map ? endpoint.computed_map->maker() : endpoint.averaged_map, endpoint.parts};
 }
 
 }  // namespace espdiff::vmdplugin

@@ -146,11 +146,10 @@ Tcl_Obj* ensemble_wanted(const Call& call) {
 /// HANDLE ENDPOINT ?EVERYTHING CELL?: gives it; EVERYTHING is an endpoint of all atoms.
 Tcl_Obj* ensemble_frame(const Call& call) {
   const auto object = find_ensemble(call.handles, call.text(0));
-  Endpoint endpoint = parse_endpoint(call.arguments[1], "frame");
   LoadedState state;
-  state.molecule = std::move(*endpoint.molecule);
+  state.molecule = parse_endpoint(call.arguments[1], "frame").molecule;
   if (call.arguments.size() > 2) {
-    state.everything = std::move(*parse_endpoint(call.arguments[2], "frame").molecule);
+    state.everything = parse_endpoint(call.arguments[2], "frame").molecule;
     state.cell = parse_unit_cell(call.arguments[3], "cell");
   }
   object->frames.give(std::move(state));

@@ -11,11 +11,11 @@
 #include "compare/result.h"
 #include "compare/surface.h"
 #include "endpoint.h"
-#include "matrix/matrix_run.h"
 #include "potential/potential.h"
 #include "potential/potential_series.h"
-#include "report/provenance.h"
-#include "report/write_compare.h"
+#include "study/matrix_study.h"
+#include "study/pair_study.h"
+#include "study/series_source.h"
 #include "trajectory/frame_files.h"
 #include "trajectory/trajectory.h"
 #include "worker.h"
@@ -38,26 +38,25 @@ struct Object {
 };
 
 /// One pair.
-struct ComparisonObject : Object {
+struct ComparisonObject : Object, PairAnswer {
   const char* kind() const override { return "comparison"; }
   Computation computation;
-  Endpoint source, target;
-  Provenance provenance;
-  std::vector<KeptFile> kept;  ///< structures that no file holds as they were compared
-  CompareResult result;
+  PairStudy study;
 };
 
 /// A structure that gets charges, and the PQR file that it is written to.
 struct PreparationObject : Object {
   const char* kind() const override { return "preparation"; }
   Computation computation;
-  Endpoint molecule;
+  State molecule;
+  LoadedState state;  ///< made by the job
   std::string path;
 };
 
 struct SurfaceObject : Object {
   const char* kind() const override { return "surface"; }
-  Endpoint molecule;
+  StatePtr given;
+  Molecule molecule;  ///< with the radii of its surface
   Computation computation;
   SurfaceResult result;
 };
@@ -66,12 +65,7 @@ struct SurfaceObject : Object {
 struct MatrixObject : Object {
   const char* kind() const override { return "matrix"; }
   Computation computation;
-  std::vector<Endpoint> endpoints;  ///< emptied as they are read
-  std::vector<std::string> labels, groups;
-  std::string template_text;                                  ///< empty: each pair by itself
-  std::size_t n_exact = 0;                                    ///< pairs compared by themselves beside a template
-  std::vector<std::pair<std::string, std::string>> settings;  ///< that were given
-  MatrixRun run;
+  MatrixStudy study;
   MatrixReport report;
 };
 
@@ -83,7 +77,9 @@ struct TrajectoryObject : Object {
   bool one_map = false;  ///< the target's map is the same for all frames
   /// Of a run over a file's models, and against those of another.
   std::unique_ptr<FrameFiles> files, source_files;
-  Endpoint source, target;
+  StatePtr source, target;
+  SeriesSource loaded_source;
+  ComparedState loaded_target;
   std::unique_ptr<Engine> engine;      // made by the first step's job
   std::unique_ptr<TrajectoryRun> run;  // destroyed before what it points to
   std::optional<SeriesRow> row;        ///< that the last step added

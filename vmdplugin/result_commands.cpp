@@ -26,8 +26,8 @@ namespace espdiff::vmdplugin {
 namespace {
 
 nlohmann::ordered_json json_of(const ComparisonObject& comparison, const OptionSpelling& spelling = bare_name) {
-  return compare_json(*comparison.source.molecule, *comparison.target.molecule, comparison.result,
-                      comparison.computation.options, comparison.provenance, spelling);
+  return compare_json(comparison.source_molecule, comparison.target_molecule, comparison.result, comparison.options,
+                      comparison.provenance, spelling);
 }
 
 nlohmann::ordered_json surface_result(const SurfaceObject& surface) {
@@ -46,7 +46,7 @@ nlohmann::ordered_json surface_result(const SurfaceObject& surface) {
 /// The content of OUT.json with the run's statistics; a shard has no matrix.
 nlohmann::ordered_json matrix_result(const MatrixObject& object) {
   const MatrixReport& report = object.report;
-  auto json = report.matrix ? matrix_json(*report.matrix, metric_to_cluster_by(object.run, *report.matrix))
+  auto json = report.matrix ? matrix_json(*report.matrix, metric_to_cluster_by(object.study.run, *report.matrix))
                             : nlohmann::ordered_json::object();
   json["pairs"] = report.n_pairs;
   json["resumed"] = report.n_resumed;
@@ -57,9 +57,9 @@ nlohmann::ordered_json matrix_result(const MatrixObject& object) {
 
 /// What was written, and what PDB2PQR did; without `preparation` where the molecule had charges.
 nlohmann::ordered_json preparation_result(const PreparationObject& object) {
-  nlohmann::ordered_json json{{"file", object.path}, {"n_atoms", object.molecule.state.molecule.size()}};
-  json["preparation"] = object.molecule.state.preparation ? preparation_json(*object.molecule.state.preparation)
-                                                          : nlohmann::ordered_json(nullptr);
+  nlohmann::ordered_json json{{"file", object.path}, {"n_atoms", object.state.molecule.size()}};
+  json["preparation"] =
+      object.state.preparation ? preparation_json(*object.state.preparation) : nlohmann::ordered_json(nullptr);
   return json;
 }
 
@@ -101,7 +101,7 @@ std::string insertion_of(const Residue& residue) {
 
 Tcl_Obj* residues(const Call& call) {
   const auto comparison = call.handles.finished_comparison(call.text(0));
-  const Molecule &source = *comparison->source.molecule, &target = *comparison->target.molecule;
+  const Molecule &source = comparison->source_molecule, &target = comparison->target_molecule;
   const std::vector<std::int32_t> partner = paired_residues(source, target, comparison->result.pairing);
   std::vector<Tcl_Obj*> rows;
   for (const ResidueRow& row : comparison->result.residues) {
@@ -133,7 +133,7 @@ Tcl_Obj* table(const Call& call) {
     if (!matrix->report.matrix)
       throw InputError(call.text(0) + " is a part of a matrix; `espdiff merge` puts the parts together");
     std::ostringstream text;
-    print_matrix(text, *matrix->report.matrix, metric_to_cluster_by(matrix->run, *matrix->report.matrix));
+    print_matrix(text, *matrix->report.matrix, metric_to_cluster_by(matrix->study.run, *matrix->report.matrix));
     return to_obj(text.str());
   }
   const auto comparison = call.handles.finished_comparison(call.text(0));
@@ -167,17 +167,13 @@ Tcl_Obj* export_files(const Call& call) {
   const auto object = call.handles.find(handle);
   if (const auto* surface = dynamic_cast<const SurfaceObject*>(object.get())) {
     require_done(handle, *surface);
-    check_outputs({surface->molecule.structure_path, surface->molecule.map_path}, {prefix + ".vtp"});
-    write_surface(prefix + ".vtp", *surface->molecule.molecule, surface->result, surface->result.unit);
+    check_outputs({surface->given->path, surface->given->map_path}, {prefix + ".vtp"});
+    write_surface(prefix + ".vtp", surface->molecule, surface->result, surface->result.unit);
     return to_list({prefix + ".vtp"});
   }
   const auto comparison = call.handles.finished_comparison(handle);
-  const Endpoint &source = comparison->source, &target = comparison->target;
-  const auto from_memory = [](const Endpoint& endpoint) {
-    return endpoint.map && endpoint.map_path.empty() ? &*endpoint.map : nullptr;
-  };
   const bool with_inputs = to_bool(call.arguments[2], "inputs");
-  const KeptInputs maps{from_memory(source), from_memory(target)};
+  const KeptInputs maps{comparison->study.source->map.get(), comparison->study.target->map.get()};  // of memory
   std::vector<std::string> files = {prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"};
   if (!with_inputs) {
     for (const KeptFile& kept : comparison->kept) files.push_back(prefix + kept.ending);
@@ -186,14 +182,14 @@ Tcl_Obj* export_files(const Call& call) {
   }
   check_outputs(input_paths(*comparison), files);
   if (!with_inputs) {
-    write_compare(prefix, *source.molecule, *target.molecule, comparison->result, comparison->computation.options,
-                  comparison->provenance, comparison->kept);
+    write_compare(prefix, comparison->source_molecule, comparison->target_molecule, comparison->result,
+                  comparison->options, comparison->provenance, comparison->kept);
     return to_list(files);
   }
   std::vector<Tcl_Obj*> written;
   for (const std::string& path :
-       write_compare_with_inputs(prefix, *source.molecule, *target.molecule, comparison->result,
-                                 comparison->computation.options, comparison->provenance, maps))
+       write_compare_with_inputs(prefix, comparison->source_molecule, comparison->target_molecule, comparison->result,
+                                 comparison->options, comparison->provenance, maps))
     written.push_back(to_obj(path));
   return to_list(written);
 }
@@ -232,7 +228,7 @@ Tcl_Obj* residue_quantity(const Call& call) {
 Tcl_Obj* residue_pdb(const Call& call) {
   const auto comparison = call.handles.finished_comparison(call.text(0));
   check_outputs(input_paths(*comparison), {call.text(2)});
-  write_residue_pdb(call.text(2), *comparison->source.molecule, comparison->result, call.text(1));
+  write_residue_pdb(call.text(2), comparison->source_molecule, comparison->result, call.text(1));
   return call.arguments[2];
 }
 

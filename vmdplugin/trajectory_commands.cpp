@@ -12,12 +12,9 @@
 #include "potential/potential.h"
 #include "potential/potential_settings.h"
 #include "prepare/input_files.h"
-#include "prepare/load_state.h"
-#include "prepare/region.h"
-#include "prepare/surface_radii.h"
-#include "prepare/take_charges.h"
 #include "tcl_values.h"
 #include "trajectory/frame_range.h"
+#include "trajectory/frame_state.h"
 #include "trajectory/series_head.h"
 
 namespace espdiff::vmdplugin {
@@ -139,57 +136,51 @@ Tcl_Obj* trajectory_next(const Call& call) {
 
 /// The source of all frames.
 Tcl_Obj* trajectory_source(const Call& call) {
-  resting(call)->source = parse_endpoint(call.arguments[1], "source");
+  resting(call)->source = shared_endpoint(call.arguments[1], "source");
   return nullptr;
 }
 
-/// Reads what is in files, frames of the run's file through its one open text.
-void load_side(TrajectoryObject& object, Endpoint& side, std::optional<int> frame, const Progress& progress) {
+/// pme takes the water of a file's frames.
+bool takes_everything(const State& state) {
+  if (!state.potential || state.potential->charges.size() > 0) return false;
+  return state.potential->method == PotentialMethod::kPme;
+}
+
+/// Reads a side: a frame of the run's file through its one open text, or what Tcl gave.
+ComparedState read_side(TrajectoryObject& object, StateRole role, std::optional<int> frame, const Progress& progress) {
   const CompareOptions& options = object.computation.options;
-  const bool is_source = &side == &object.source;
+  const bool is_source = role == StateRole::kSource;
+  const StatePtr& given = is_source ? object.source : object.target;
   FrameFiles* const files =
       is_source && object.against == Reference::kSame ? object.source_files.get() : object.files.get();
-  if (frame && files != nullptr && !side.molecule) {
-    const auto [file, model] = files->file_of_frame(*frame);
-    StructureOptions structure = side.structure;
-    structure.model = model;
-    static const Molecule none;
-    const Molecule& source = !is_source && object.source.molecule ? *object.source.molecule : none;
-    const std::string name = files->name(*frame);
-    side.state = load_frame(*file, structure, name, source, object.source.state.preparation.has_value(), options.input,
-                            progress);
-    side.molecule = side.state.molecule;
-    if (is_source && side.map_request)
-      side.state.preparation = charge_molecule(*side.molecule, options.input, {}, side.state.charge_files, progress);
-    if (wants_everything(side)) {
-      side.everything = Everything{file->read({model, true, true}), files->cell(*frame)};
-      side.everything->molecule.name = name;
-      if (!is_source && object.source.everything && !object.source.everything->molecule.charges.empty())
-        take_values(side.everything->molecule, object.source.everything->molecule, name);
-    }
+  ComparedState state;
+  state.role = to_string(role);
+  if (frame && files != nullptr && !given->path.empty()) {
+    static const LoadedState none;
+    state.loaded = load_frame_state(*files, *frame, given->structure, is_source ? none : object.loaded_source.loaded(),
+                                    takes_everything(*given), options.input, progress, role);
+    if (is_source && given->potential)
+      state.loaded.preparation =
+          charge_molecule(state.loaded.molecule, options.input, {}, state.loaded.charge_files, progress);
+  } else {
+    const Molecule* const source = is_source ? nullptr : &object.loaded_source.loaded().molecule;
+    state = StateReader({options, {}, true}, {given}, progress).read(role, source);
   }
-  load(side, options, is_source ? nullptr : &object.source, progress);
-  static const Molecule nothing;
-  const Molecule& source = !is_source && object.source.molecule ? *object.source.molecule : nothing;
-  set_frame_radii(source, *side.molecule, options.input.radii);
+  add_map(*given, {}, options.temperature_K, state);
+  return state;
 }
 
 /// The inputs of all rows: the one source, and a map of all frames.
 std::vector<InputFile> common_inputs(const TrajectoryObject& object) {
   std::vector<InputFile> inputs;
-  if (object.against == Reference::kOne) inputs = object.source.inputs;
-  for (const InputFile& input : object.target.inputs) {
-    if (object.one_map && input.role == "target_map") inputs.push_back(input);
+  const ComparedState& source = object.loaded_source.state();
+  if (object.against == Reference::kOne) {
+    inputs = source.inputs;
+    inputs.insert(inputs.end(), source.map_inputs.begin(), source.map_inputs.end());
   }
+  const std::vector<InputFile>& of_map = object.loaded_target.map_inputs;
+  if (object.one_map) inputs.insert(inputs.end(), of_map.begin(), of_map.end());
   return inputs;
-}
-
-/// Region and patches of the source by the settings.
-void set_parts(TrajectoryObject& object) {
-  const InputOptions& options = object.computation.options.input;
-  Endpoint& source = object.source;
-  const Molecule& whole = source.state.whole.size() > 0 ? source.state.whole : *source.molecule;
-  add_parts(source, source_parts(*source.molecule, whole, *source.molecule, whole, options));
 }
 
 /// Reads, compares and writes one frame, on the worker's thread.
@@ -198,20 +189,21 @@ void run_step(TrajectoryObject& object, const Progress& progress) {
   TrajectoryRun& run = *object.run;
   if (object.engine == nullptr) object.engine = engine_for(object.computation);
   // A failure of the common source ends the run, even with -on-error skip.
+  const InputOptions& options = object.computation.options.input;
+  SeriesSource& source = object.loaded_source;
   const bool has_one_source = object.against == Reference::kOne;
-  if (has_one_source) {
-    load_side(object, object.source, std::nullopt, progress);
-    set_parts(object);
-    run.note_inputs(object.source.inputs);
+  if (has_one_source && object.source != nullptr) {
+    source.take(read_side(object, StateRole::kSource, std::nullopt, progress), options);
+    object.loaded_target = {};
+    run.note_inputs(common_inputs(object));
+    object.source = nullptr;  // once
   }
   const auto read = [&] {
     const TrajectoryStep& step = run.next();
-    if (!has_one_source) {
-      load_side(object, object.source, step.source, progress);
-      set_parts(object);
-    }
-    load_side(object, object.target, step.frame, progress);
-    return StepInput{input_of(object.source), input_of(object.target), common_inputs(object)};
+    if (!has_one_source) source.take(read_side(object, StateRole::kSource, step.source, progress), options);
+    object.loaded_target = read_side(object, StateRole::kTarget, step.frame, progress);
+    return StepInput{source.side(), source.frame(object.loaded_target, options), common_inputs(object),
+                     &source.loaded(), &object.loaded_target.loaded};
   };
   if (const SeriesRow* const row = run.step(*object.engine, read, progress)) object.row = *row;
 }
@@ -221,8 +213,8 @@ Tcl_Obj* trajectory_step(const Call& call) {
   const auto object = resting(call);
   if ((object->against != Reference::kOne) != (call.arguments.size() > 2))
     throw InputError("a source is given for each frame, unless all frames have one");
-  object->target = parse_endpoint(call.arguments[1], "target");
-  if (object->against != Reference::kOne) object->source = parse_endpoint(call.arguments[2], "source");
+  object->target = shared_endpoint(call.arguments[1], "target");
+  if (object->against != Reference::kOne) object->source = shared_endpoint(call.arguments[2], "source");
   object->job = Worker::instance().submit([keep = std::weak_ptr<TrajectoryObject>(object)](const Progress& progress) {
     if (const auto alive = keep.lock()) run_step(*alive, progress);
   });

@@ -12,15 +12,11 @@
 
 #include "arrays.h"
 #include "base/error.h"
-#include "compare/compare.h"
 #include "compare/slip.h"
 #include "engine/engine.h"
 #include "io/check_outputs.h"
-#include "prepare/region.h"
-#include "prepare/surface_radii.h"
 #include "report/metrics.h"
 #include "report/potential_json.h"
-#include "report/state_report.h"
 #include "report/write_compare.h"
 #include "run.h"
 
@@ -35,32 +31,9 @@ std::shared_ptr<Comparison> compare_states(const StatePtr& source, const StatePt
   made->source = source;
   made->target = target;
   const Computation computation(settings, potential, pme_cell, device, threads);
-  made->options = computation.options;
+  PairStudy study{source, target, computation.options, computation.potential, false, true, call};
   run(progress, [&](const Progress& told) {
-    const InputOptions& input = made->options.input;
-    LoadedState a = load(*source, StateRole::kSource, computation, nullptr, told);
-    LoadedState b = load(*target, StateRole::kTarget, computation, &a.molecule, told);
-    check_left_out(input, {&a, &b});
-    std::vector<InputFile> inputs;
-    note_inputs(*source, a, "source", inputs);
-    note_inputs(*target, b, "target", inputs);
-    const PotentialPlan plan = plan_potential(computation, {source.get(), target.get()}, {&a, &b});
-    CompareInput source_side = side_of(*source, a, plan, "source", inputs);
-    const CompareInput target_side = side_of(*target, b, plan, "target", inputs);
-    for (const auto& [role, state] : {std::pair("source", &a), std::pair("target", &b)}) {
-      for (KeptFile& file : kept_structure(role, *state)) made->kept.push_back(std::move(file));
-    }
-    const std::string radii_note = set_surface_radii({&a.molecule, &b.molecule}, input.radii);
-    source_side.parts = source_parts(a.molecule, a.whole, b.molecule, b.whole, input);
-    const std::unique_ptr<Engine> engine = computation.make_engine();
-    made->provenance = provenance_of(*engine, call, std::move(inputs));
-    note_preparation("source", a, made->provenance);
-    note_preparation("target", b, made->provenance);
-    made->result = compare(*engine, source_side, target_side, made->options, told);
-    note_states(made->result, a, b, radii_note);
-    if (!made->result.has_potential) made->result.shapes_because = plan.because();
-    made->source_molecule = std::move(a.molecule);
-    made->target_molecule = std::move(b.molecule);
+    static_cast<PairAnswer&>(*made) = run_pair(study, *computation.make_engine(), told);
   });
   return made;
 }

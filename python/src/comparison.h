@@ -5,19 +5,13 @@
 
 #include <memory>
 
-#include "compare/result.h"
 #include "inputs.h"
-#include "report/write_compare.h"
+#include "study/pair_study.h"
 
 namespace espdiff::python {
 
-struct Comparison {
+struct Comparison : PairAnswer {
   StatePtr source, target;
-  Molecule source_molecule, target_molecule;  ///< as they were compared
-  std::vector<KeptFile> kept;                 ///< of the states that no file holds as they were compared
-  CompareOptions options;
-  Provenance provenance;
-  CompareResult result;
 };
 
 /// Adds the class Comparison and the function compare().

@@ -29,7 +29,7 @@ std::shared_ptr<PyMap> make_py_map(const StatePtr& state, const Settings& settin
   auto made = std::make_shared<PyMap>();
   const Computation computation(settings, method, "auto", device, threads);
   run(progress, [&](const Progress& told) {
-    const LoadedState loaded = load(*state, StateRole::kOnly, computation, nullptr, told);
+    const LoadedState loaded = loaded_alone(state, computation, told).loaded;
     const PotentialChoice choice = choose_potential(method, "auto", {facts_of(loaded)});
     if (!choice.method) throw InputError(state->molecule.name + " has no charges, of which a potential could be made");
     const PotentialOptions options = make_potential_options(

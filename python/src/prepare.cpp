@@ -22,7 +22,7 @@ StatePtr prepare(const StatePtr& state, const Settings& settings, const nb::obje
   // Any computed potential needs charges.
   const Computation computation(settings, "pb", "auto", "auto", 0);
   run(progress, [&](const Progress& told) {
-    LoadedState loaded = load(*state, StateRole::kOnly, computation, nullptr, told);
+    LoadedState loaded = loaded_alone(state, computation, told).loaded;
     check_left_out(computation.options.input, {&loaded});
     made->molecule = std::move(loaded.molecule);
     made->cell = loaded.cell;

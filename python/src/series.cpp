@@ -11,10 +11,10 @@
 #include "base/error.h"
 #include "comparison.h"
 #include "engine/engine.h"
-#include "prepare/region.h"
-#include "prepare/surface_radii.h"
+#include "report/state_report.h"
 #include "run.h"
 #include "series.h"
+#include "study/series_source.h"
 #include "trajectory/trajectory.h"
 
 namespace espdiff::python {
@@ -40,18 +40,16 @@ class PySeries {
     run(progress, [&](const Progress& told) {
       const std::lock_guard<std::mutex> lock(one_at_a_time_);
       begin(told);
-      std::vector<InputFile> inputs = source_inputs_;
-      LoadedState loaded = load_target(*target, computation_, loaded_, told);
-      note_inputs(*target, loaded, "target", inputs);
-      const CompareInput side = side_of(*target, loaded, plan_, "target", inputs);
-      set_frame_radii(surface_, loaded.molecule, computation_.options.input.radii);
-      made->provenance = provenance_of(*engine_, call_, std::move(inputs));
-      note_preparation("source", loaded_, made->provenance);
-      note_preparation("target", loaded, made->provenance);
+      StateReader reader(computation_.states(), {target}, told);
+      ComparedState state = reader.read_frame(loaded_.loaded());
+      add_map(*target, plan_, computation_.options.temperature_K, state);
+      const CompareInput side = loaded_.frame(state, computation_.options.input);
+      made->provenance = provenance_of(*engine_, call_, loaded_.state(), state);
       made->result = series_->step(side, start_, told);
+      note_states(made->result, loaded_.loaded(), state.loaded, {});
       if (!made->result.has_potential) made->result.shapes_because = plan_.because();
-      made->source_molecule = surface_;
-      made->target_molecule = std::move(loaded.molecule);
+      made->source_molecule = loaded_.surface();
+      made->target_molecule = std::move(state.loaded.molecule);
     });
     return made;
   }
@@ -60,16 +58,11 @@ class PySeries {
   /// Loads the source, at the first step.
   void begin(const Progress& progress) {
     if (series_ != nullptr) return;
-    loaded_ = load(*source_, StateRole::kSource, computation_, nullptr, progress);
-    plan_ = plan_potential(computation_, {source_.get()}, {&loaded_});
-    source_inputs_.clear();
-    note_inputs(*source_, loaded_, "source", source_inputs_);
-    side_ = side_of(*source_, loaded_, plan_, "source", source_inputs_);
-    surface_ = loaded_.molecule;
-    set_surface_radii({&surface_}, computation_.options.input.radii);
-    side_.molecule = &surface_;
-    side_.parts =
-        source_parts(loaded_.molecule, loaded_.whole, loaded_.molecule, loaded_.whole, computation_.options.input);
+    StateReader reader(computation_.states(), {source_}, progress);
+    ComparedState source = reader.read(StateRole::kSource);
+    plan_ = reader.add_maps({&source});
+    loaded_.take(std::move(source), computation_.options.input);
+    side_ = loaded_.side();
     engine_ = computation_.make_engine();
     series_ = std::make_unique<Series>(*engine_, side_, computation_.options);
   }
@@ -80,10 +73,8 @@ class PySeries {
   std::string call_;
   std::mutex one_at_a_time_;
   std::unique_ptr<Engine> engine_;
-  LoadedState loaded_;  // the source
-  Molecule surface_;    // the source with the radii of its surface
+  SeriesSource loaded_;
   PotentialPlan plan_;
-  std::vector<InputFile> source_inputs_;
   CompareInput side_;
   std::unique_ptr<Series> series_;  // destroyed before what it refers to
 };

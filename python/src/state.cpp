@@ -15,7 +15,6 @@
 #include "io/atomic_file.h"
 #include "io/elements.h"
 #include "io/molecule_builder.h"
-#include "io/read_grid.h"
 #include "io/select_atoms.h"
 #include "io/sha256.h"
 #include "io/structure_file.h"
@@ -118,7 +117,8 @@ StatePtr from_arrays(const AnyArray& positions, const std::optional<AnyArray>& r
 
 StatePtr from_file(const std::filesystem::path& path, int model, bool hetero, bool water) {
   auto state = std::make_shared<State>();
-  state->file = std::make_shared<const StructureFile>(path.string());
+  state->path = path.string();
+  state->file = std::make_shared<const StructureFile>(state->path);
   state->structure = {model, hetero, water, {}};
   state->molecule = state->file->read(state->structure);
   state->input = {"", path.string(), state->file->sha256(), nullptr, state->structure};
@@ -162,14 +162,11 @@ void save_pqr(const State& state, const std::filesystem::path& path) {
 
 StatePtr with_map_file(const State& state, const std::string& path, const std::string& unit, const std::string& array) {
   auto copy = std::make_shared<State>(state);
-  GridOptions options;
-  options.array = array;
-  options.unit = unit;
-  GridFile map = read_grid_file(path, options);
-  copy->map = std::make_shared<const Grid>(std::move(map.grid));
-  copy->map_input = {"", path, map.sha256};
-  copy->map_from_file = true;
+  copy->map = nullptr;
+  copy->map_path = path;
   copy->map_array = array;
+  copy->map_unit = unit;
+  read_given_map(*copy);
   return copy;
 }
 
@@ -206,7 +203,7 @@ StatePtr with_map(const State& state, const AnyArray& values, const std::vector<
   auto copy = std::make_shared<State>(state);
   copy->map_input = {"", grid->name, sum.finish()};
   copy->map = grid;
-  copy->map_from_file = false;
+  copy->map_path.clear();
   return copy;
 }
 

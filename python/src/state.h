@@ -4,34 +4,15 @@
 #include <nanobind/nanobind.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 
-#include "base/structure_options.h"
-#include "base/types.h"
-#include "base/unit_cell.h"
-#include "report/provenance.h"
-
-namespace espdiff {
-class StructureFile;
-}
+#include "study/state.h"
 
 namespace espdiff::python {
 
-/// A molecule, what surrounds it, and its map where one is given. Never changed once it is made: computations on other
-/// threads share it.
-struct State {
-  Molecule molecule;                          ///< as it was read or given, before selections and charges
-  std::shared_ptr<const StructureFile> file;  ///< null for one of arrays
-  StructureOptions structure;                 ///< how the file is read
-  /// Of arrays: with water and ions, where pme is to count their charges; null: the molecule alone.
-  std::shared_ptr<const Molecule> everything;
-  std::optional<UnitCell> cell;  ///< of arrays
-  std::shared_ptr<const Grid> map;
-  InputFile input, map_input;  ///< without roles
-  std::string preparation;     ///< what PDB2PQR did, as in OUT.json; empty where it did not run
-  bool map_from_file = false;
-  std::string map_array;  ///< of a file that has several
+/// A state of a study, and what PDB2PQR did. Never changed once it is made: computations on other threads share it.
+struct State : espdiff::State {
+  std::string preparation;  ///< as in OUT.json; empty where it did not run
 };
 
 using StatePtr = std::shared_ptr<const State>;

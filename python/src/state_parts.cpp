@@ -80,7 +80,7 @@ nb::dict parts_of(const State& state) {
     parts["everything"] = arrays_of(*state.everything, state.cell);
   }
   if (state.map == nullptr) return parts;
-  if (state.map_from_file) {
+  if (!state.map_path.empty()) {
     parts["map_path"] = state.map_input.path;
     parts["unit"] = to_string(state.map->unit);
     parts["array"] = state.map_array;

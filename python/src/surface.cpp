@@ -30,14 +30,13 @@ std::shared_ptr<PySurface> make_py_surface(const StatePtr& state, const Settings
   auto made = std::make_shared<PySurface>();
   const Computation computation(settings, potential, pme_cell, device, threads);
   run(progress, [&](const Progress& told) {
-    LoadedState loaded = load(*state, StateRole::kOnly, computation, nullptr, told);
-    const PotentialPlan plan = plan_potential(computation, {state.get()}, {&loaded});
-    std::vector<InputFile> ignored;
-    const CompareInput input = side_of(*state, loaded, plan, "source", ignored);
-    set_surface_radii({&loaded.molecule}, computation.options.input.radii);
+    StateReader reader(computation.states(), {state}, told);
+    ComparedState only = reader.read(StateRole::kOnly);
+    reader.add_maps({&only});
+    set_surface_radii({&only.loaded.molecule}, computation.options.input.radii);
     const std::unique_ptr<Engine> engine = computation.make_engine();
-    made->result = make_surface(*engine, input, computation.options, regularize, told);
-    made->molecule = std::move(loaded.molecule);
+    made->result = make_surface(*engine, only.side(), computation.options, regularize, told);
+    made->molecule = std::move(only.loaded.molecule);
   });
   return made;
 }

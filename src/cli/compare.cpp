@@ -14,23 +14,18 @@
 #include "cli/verbs.h"
 #include "cli/verdict_status.h"
 #include "cli/ways_on.h"
-#include "compare/compare.h"
 #include "compare/options.h"
 #include "compare/result.h"
 #include "engine/engine.h"
 #include "field/field_kinds.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
-#include "io/structure_file.h"
 #include "prepare/input_files.h"
-#include "prepare/load_state.h"
 #include "prepare/preparation.h"
-#include "prepare/region.h"
-#include "prepare/surface_radii.h"
 #include "report/provenance.h"
 #include "report/residue_values.h"
-#include "report/state_report.h"
 #include "report/write_compare.h"
+#include "study/pair_study.h"
 
 namespace espdiff::cli {
 namespace {
@@ -73,64 +68,15 @@ void add_input_options(CLI::App& p, CompareArguments& a) {
       ->group("Molecules");
 }
 
-/// One of the two states.
-struct Side {
-  std::string role;
-  LoadedState state;
-  std::optional<Grid> map;
-  std::optional<ComputedMap> computed;
-
-  CompareInput input() const {
-    return {&state.molecule, map ? &*map : nullptr, computed ? computed->maker() : MapMaker(), {}};
-  }
-};
-
-StructureOptions structure_options(const CompareArguments& a, const std::string& role) {
-  StructureOptions options = a.structure;
-  options.model = role == "source" ? a.source_model : a.target_model;
-  return options;
+StatePtr state_of(const CompareArguments& a, bool is_source) {
+  State state = with_given_map(a.maps, is_source);
+  state.path = is_source ? a.source : a.target;
+  state.structure = a.structure;
+  state.structure.model = is_source ? a.source_model : a.target_model;
+  return std::make_shared<const State>(std::move(state));
 }
 
-Side read_side(const CompareArguments& a, const std::string& role, const InputOptions& options, const Molecule* source,
-               Provenance& provenance, const Progress& progress) {
-  const bool is_source = role == "source";
-  const std::string& path = is_source ? a.source : a.target;
-  const StructureFile file(path);
-  StateRequest request{structure_options(a, role), is_source ? StateRole::kSource : StateRole::kTarget};
-  request.source = source;
-  if (is_source) {
-    request.check_partner = [&] {
-      StateRequest other{structure_options(a, "target"), StateRole::kTarget};
-      other.only_checks = true;
-      load_state(StructureFile(a.target), other, options, progress);
-    };
-  }
-  Side side{role, load_for(a.maps, !has_given_maps(a.maps), file, request, options, progress), {}, {}};
-  const auto inputs = state_inputs(role, {role, path, file.sha256(), nullptr, request.structure}, side.state);
-  provenance.inputs.insert(provenance.inputs.end(), inputs.begin(), inputs.end());
-  if (side.state.preparation)
-    provenance.preparations.emplace_back(role, std::make_shared<Preparation>(*side.state.preparation));
-  return side;
-}
-
-/// The maps of both sides: given, computed, or none. @returns why there is none, where that was not asked for
-std::string add_maps(const CompareArguments& a, Side& source, Side& target, double temperature_K,
-                     std::vector<InputFile>& inputs) {
-  if (has_given_maps(a.maps)) {
-    for (Side* side : {&source, &target}) side->map = given_map(a.maps, side->role, inputs);
-    return {};
-  }
-  const PotentialPlan plan(a.maps, {facts_of(source.state), facts_of(target.state)}, temperature_K);
-  for (Side* side : {&source, &target}) {
-    if (!plan.computes()) continue;
-    side->computed = plan.map_of(side->state);
-    inputs.push_back(computed_input(side->role + "_map", *side->computed));
-  }
-  return plan.because();
-}
-
-/// @param kept endings of structures that are written as well
-void check_files(const CompareArguments& a, const CompareOptions& options, const std::vector<std::string>& kept) {
+void check_files(const CompareArguments& a, const CompareOptions& options, const std::vector<KeptFile>& kept) {
   std::vector<std::string> inputs = input_files(options.input),
                            outputs = {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb,
                                       a.picture};
@@ -139,50 +85,15 @@ void check_files(const CompareArguments& a, const CompareOptions& options, const
     for (const std::string& path : files_of(field)) inputs.push_back(path);
   }
   for (const std::string& ending : further_endings(options)) outputs.push_back(a.output + ending);
-  for (const std::string& ending : kept) outputs.push_back(a.output + ending);
+  for (const KeptFile& file : kept) outputs.push_back(a.output + file.ending);
   check_outputs(inputs, outputs);
 }
 
-/// The structures that are written beside the results. An output that would replace an input is found before the work.
-std::vector<KeptFile> kept_structures(const CompareArguments& a, const CompareOptions& options, const Side& source,
-                                      const Side& target) {
-  std::vector<KeptFile> kept;
-  std::vector<std::string> endings;
-  for (const Side* side : {&source, &target}) {
-    for (KeptFile& file : kept_structure(side->role, side->state)) {
-      endings.push_back(file.ending);
-      kept.push_back(std::move(file));
-    }
-  }
-  check_files(a, options, endings);
-  return kept;
-}
-
-/// Both states, and their comparison.
-struct Comparison {
-  Side source, target;
-  CompareResult result;
-  std::vector<KeptFile> kept;
-};
-
-/// Reads, prepares and compares the two states.
-Comparison compared(const CompareArguments& a, const CompareOptions& options, Engine& engine, Provenance& provenance,
-                    const Progress& progress) {
-  progress.report("read", 0.0);
-  Side source = read_side(a, "source", options.input, nullptr, provenance, progress);
-  Side target = read_side(a, "target", options.input, &source.state.molecule, provenance, progress);
-  check_left_out(options.input, {&source.state, &target.state});
-  const std::string because = add_maps(a, source, target, options.temperature_K, provenance.inputs);
-  std::vector<KeptFile> kept = kept_structures(a, options, source, target);
-  const std::string radii_note =
-      set_surface_radii({&source.state.molecule, &target.state.molecule}, options.input.radii);
-  CompareInput source_input = source.input();
-  source_input.parts =
-      source_parts(source.state.molecule, source.state.whole, target.state.molecule, target.state.whole, options.input);
-  CompareResult result = compare(engine, source_input, target.input(), options, progress);
-  note_states(result, source.state, target.state, radii_note);
-  if (!result.has_potential) result.shapes_because = because;
-  return {std::move(source), std::move(target), std::move(result), std::move(kept)};
+PairStudy study_of(const CompareArguments& a, const CompareOptions& options, const Context& context) {
+  PairStudy study{state_of(a, true), state_of(a, false), options, a.maps};
+  study.command_line = context.command_line;
+  study.check_kept = [&](const std::vector<KeptFile>& kept) { check_files(a, options, kept); };
+  return study;
 }
 
 /// The arguments of a change.
@@ -207,22 +118,21 @@ double total_seconds(const CompareResult& result) {
 }
 
 /// Tries what may help until an answer can be trusted, where a trial takes seconds, and prints the command.
-void print_next(const CompareArguments& a, const Comparison& first, Engine& engine, const Context& context) {
+void print_next(const CompareArguments& a, const PairAnswer& first, Engine& engine, const Context& context) {
   constexpr double kLongestTrialSeconds = 30, kMostSeconds = 60;
   const auto begun = std::chrono::steady_clock::now();
   std::vector<std::string> given;
   for (const auto& setting : a.settings) given.push_back(setting.first);
-  const bool prepared = first.source.state.preparation && first.target.state.preparation;
+  const bool prepared = first.provenance.preparations.size() == 2;
   const double once_s = total_seconds(first.result);
   std::string tried;
-  for (const WayOn& way :
-       ways_on(first.result, first.source.state.molecule, first.target.state.molecule, given, prepared)) {
+  for (const WayOn& way : ways_on(first.result, first.source_molecule, first.target_molecule, given, prepared)) {
     const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     if (a.no_trials || once_s > kLongestTrialSeconds || spent_s + once_s > kMostSeconds) break;
     const CompareArguments other = changed(a, way);
     try {
-      Provenance unused;
-      const Comparison again = compared(other, make_options(other.settings), engine, unused, *context.progress);
+      const CompareOptions options = make_options(other.settings);
+      const PairAnswer again = run_pair(study_of(other, options, context), engine, *context.progress);
       tried += (tried.empty() ? "" : "; ") + way.what;
       if (!again.result.certificate.trustworthy) continue;
       TypedWords words = with_options(context.words, way.options);
@@ -244,11 +154,10 @@ void print_next(const CompareArguments& a, const Comparison& first, Engine& engi
 }
 
 /// What is doubtful about charges that were made, of which a verdict says nothing.
-void print_doubts(const Comparison& comparison) {
-  for (const Side* side : {&comparison.source, &comparison.target}) {
-    if (!side->state.preparation) continue;
-    for (const std::string& doubt : side->state.preparation->warnings)
-      std::fprintf(stderr, "espdiff: of the %s, %s\n", side->role.c_str(), printable(doubt).c_str());
+void print_doubts(const Provenance& provenance) {
+  for (const auto& [role, preparation] : provenance.preparations) {
+    for (const std::string& doubt : preparation->warnings)
+      std::fprintf(stderr, "espdiff: of the %s, %s\n", role.c_str(), printable(doubt).c_str());
   }
 }
 
@@ -266,37 +175,32 @@ int compare_verb(const CompareArguments& a, const Context& context) {
     throw InputError("--residue-quantity needs --residue-pdb FILE");
   if (!a.residue_quantity.empty()) require_residue_quantity(a.residue_quantity, options.fields);
 
-  Provenance provenance;
-  provenance.command_line = context.command_line;
   const std::unique_ptr<Engine> engine = make_engine(a.device);
-  provenance.device = engine->back_end();
-  provenance.device_description = engine->description();
-  provenance.threads = engine->n_threads();
-  const Comparison comparison = compared(a, options, *engine, provenance, *context.progress);
-  const CompareResult& result = comparison.result;
+  const PairAnswer answer = run_pair(study_of(a, options, context), *engine, *context.progress);
+  const CompareResult& result = answer.result;
   context.progress->report("write", 0.0);
-  const Molecule &source_molecule = comparison.source.state.molecule,
-                 &target_molecule = comparison.target.state.molecule;
   std::unique_ptr<AtomicFile> pdb;
   if (!a.residue_pdb.empty()) {
     pdb = std::make_unique<AtomicFile>(a.residue_pdb);
-    write_residue_pdb(*pdb, source_molecule, result,
+    write_residue_pdb(*pdb, answer.source_molecule, result,
                       a.residue_quantity.empty() ? usual_residue_quantity(result) : a.residue_quantity);
   }
-  write_compare(a.output, source_molecule, target_molecule, result, options, provenance, comparison.kept, pdb.get());
+  write_compare(a.output, answer.source_molecule, answer.target_molecule, result, options, answer.provenance,
+                answer.kept, pdb.get());
   if (!a.picture.empty()) draw_result(a.output, a.picture, result.has_potential);
   context.progress->report("write", 1.0);
   if (a.quiet) {
     print_verdict_line(std::cout, result);
-    print_doubts(comparison);
+    print_doubts(answer.provenance);
   } else {
-    const auto record = compare_json(source_molecule, target_molecule, result, options, provenance, spelled_option);
+    const auto record = compare_json(answer.source_molecule, answer.target_molecule, result, options, answer.provenance,
+                                     spelled_option);
     if (a.full) {
       print_table(std::cout, record);
     } else {
       print_answer(std::cout, record, as_typed({"show", a.output}));
     }
-    if (!result.certificate.trustworthy) print_next(a, comparison, *engine, context);
+    if (!result.certificate.trustworthy) print_next(a, answer, *engine, context);
   }
   return verdict_status(result, a.exit_zero);
 }

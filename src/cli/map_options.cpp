@@ -58,13 +58,12 @@ void check_map_options(const MapArguments& a) {
                      " is of computed potentials, and maps were given; leave out one of them");
 }
 
-std::optional<Grid> given_map(const MapArguments& a, const std::string& role, std::vector<InputFile>& inputs) {
-  const bool is_source = role == "source";
-  const std::string& path = is_source ? a.source_map : a.target_map;
-  if (path.empty()) return std::nullopt;
-  GridFile map = read_map(path, a.map_array, is_source ? a.source_map_unit : a.target_map_unit);
-  inputs.push_back({role + "_map", path, map.sha256});
-  return std::move(map.grid);
+State with_given_map(const MapArguments& a, bool is_source) {
+  State state;
+  state.map_path = is_source ? a.source_map : a.target_map;
+  state.map_unit = is_source ? a.source_map_unit : a.target_map_unit;
+  state.map_array = a.map_array;
+  return state;
 }
 
 }  // namespace espdiff::cli

@@ -1,14 +1,11 @@
 // map_options.h: the potentials of two sides on the command line: maps in files, or computed ones.
 #pragma once
 
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "base/types.h"
 #include "cli/options.h"
 #include "potential/potential_plan.h"
-#include "report/provenance.h"
+#include "study/state.h"
 
 namespace espdiff::cli {
 
@@ -24,7 +21,7 @@ inline bool has_given_maps(const MapArguments& a) { return !(a.source_map.empty(
 /// @throws InputError (computed and given maps)
 void check_map_options(const MapArguments& arguments);
 
-/// The file's map of a side, "source" or "target"; nothing where none was given. Adds to `inputs`.
-std::optional<Grid> given_map(const MapArguments& arguments, const std::string& role, std::vector<InputFile>& inputs);
+/// A state with the map that was given for a side.
+State with_given_map(const MapArguments& arguments, bool is_source);
 
 }  // namespace espdiff::cli

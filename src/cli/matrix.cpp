@@ -1,7 +1,7 @@
 // matrix.cpp: `espdiff matrix VARIANT... -o OUT`.
-#include <algorithm>
-#include <filesystem>
 #include <iostream>
+#include <memory>
+#include <utility>
 
 #include "base/error.h"
 #include "base/formatted.h"
@@ -11,17 +11,8 @@
 #include "cli/verbs.h"
 #include "compare/options.h"
 #include "engine/engine.h"
-#ifdef ESPDIFF_HAVE_HDF5
-#include "ensemble/ensemble_study.h"
-#include "ensemble/template_matrix.h"
-#endif
-#include "io/structure_file.h"
-#include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
-#include "prepare/input_files.h"
-#include "prepare/load_state.h"
-#include "prepare/surface_radii.h"
-#include "report/state_report.h"
+#include "study/matrix_study.h"
 
 namespace espdiff::cli {
 namespace {
@@ -52,68 +43,16 @@ std::vector<VariantFiles> chosen_variants(const MatrixArguments& a) {
   return variants;
 }
 
-bool has_maps(const std::vector<VariantFiles>& files) {
-  return std::any_of(files.begin(), files.end(), [](const VariantFiles& f) { return !f.map.empty(); });
-}
-
-/// The molecules of all variants, and their potentials, chosen for all of them together.
-struct States {
-  std::vector<Variant> variants;
-  PotentialPlan plan;
-  std::string radii_note;  ///< of set_surface_radii()
-};
-
-/// Each structure is read once.
-States read_states(const MatrixArguments& a, const std::vector<VariantFiles>& files, const CompareOptions& options,
-                   const Progress& progress) {
-  matrix_pairs(files.size(), a.run.shard);  // refuses what is too large before anything is read
-  States all;
-  std::vector<LoadedState> states;
-  std::unique_ptr<StructureFile> structure;  // several models of one follow each other
-  std::string open_path;
-  const bool wants_charges = !has_maps(files);
-  for (const VariantFiles& file : files) {
-    const double fraction = static_cast<double>(states.size()) / static_cast<double>(files.size());
-    progress.report("read " + file.label, fraction);
-    if (structure == nullptr || open_path != file.structure) {
-      structure = std::make_unique<StructureFile>(file.structure);
-      open_path = file.structure;
-    }
-    StateRequest request{a.structure};
-    request.structure.model = file.model;
-    request.source = states.empty() ? nullptr : &states.front().molecule;
-    states.push_back(load_for(a.potential, wants_charges, *structure, request, options.input, progress));
-    if (options.input.region_of.empty()) states.back().whole = {};  // a region near other atoms refers to them
-    all.variants.push_back(read_variant(file, *structure, states.back().molecule, a.map_array));
-    const auto inputs = state_inputs("structure", all.variants.back().inputs.front(), states.back());
-    all.variants.back().inputs.insert(all.variants.back().inputs.end(), inputs.begin() + 1, inputs.end());
-  }
-  std::vector<const LoadedState*> loaded;
-  loaded.reserve(states.size());
-  for (const LoadedState& state : states) loaded.push_back(&state);
-  check_left_out(options.input, loaded);
-  if (wants_charges && a.potential.potential != "none") {
-    std::vector<PotentialFacts> facts;
-    facts.reserve(states.size());
-    for (const LoadedState& state : states) facts.push_back(facts_of(state));
-    all.plan = PotentialPlan(a.potential, facts, options.temperature_K);
-  }
-  std::vector<Molecule*> molecules;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    Variant& variant = all.variants[i];
-    molecules.push_back(&variant.molecule);
-    if (!all.plan.computes()) continue;
-    const ComputedMap map = all.plan.map_of(states[i]);
-    variant.make_map = map.maker();
-    variant.inputs.push_back(computed_input("map", map));
-  }
-  std::vector<const Molecule*> wholes;
-  for (std::size_t i = 0; i < states.size(); ++i)
-    wholes.push_back(states[i].whole.size() > 0 ? &states[i].whole : &all.variants[i].molecule);
-  set_parts(all.variants, wholes, options.input);
-  all.radii_note = set_surface_radii(molecules, options.input.radii);
-  unite_map_units(all.variants, options.temperature_K);
-  return all;
+MatrixStudy::Item item_of(const MatrixArguments& a, const VariantFiles& files) {
+  State state;
+  state.path = files.structure;
+  state.input.sha256 = files.sha256;
+  state.structure = a.structure;
+  state.structure.model = files.model;
+  state.map_path = files.map;
+  state.map_unit = files.map_unit;
+  state.map_array = a.map_array;
+  return {std::make_shared<const State>(std::move(state)), files.label, files.group};
 }
 
 void print_template_work(const TemplateWork& work) {
@@ -147,33 +86,21 @@ void print_report(const MatrixArguments& a, const Engine& engine, const MatrixRe
   std::cout << '\n';
 }
 
-MatrixReport compute(const MatrixArguments& a, Engine& engine, const std::vector<Variant>& variants,
-                     const CompareOptions& options, const Progress& progress) {
-  if (a.template_text.empty()) return run_matrix(engine, variants, options, a.run, progress);
-#ifdef ESPDIFF_HAVE_HDF5
-  const TemplateRequest request{a.template_text, a.exact_sample, ensemble_options(a.settings), a.structure};
-  return run_template_matrix(engine, variants, options, request, a.run, progress);
-#else
-  throw InputError("--template: the potentials are kept in an HDF5 file, and this program was built without HDF5");
-#endif
-}
-
 int matrix_verb(MatrixArguments& a, const Context& context) {
-  const CompareOptions options = make_options(a.settings);
+  MatrixStudy study;
+  study.options = make_options(a.settings);
+  study.settings = a.settings;
+  study.potential = a.potential;
+  study.template_text = a.template_text;
+  study.n_exact = a.exact_sample;
+  study.structure = a.structure;
   a.run.shard = parse_shard(a.shard);
   a.run.skip_errors = a.on_error == "skip";
-  const std::vector<VariantFiles> files = chosen_variants(a);
-  a.run.read_files = input_files(options.input);
-  a.run.read_files.insert(a.run.read_files.end(), {a.list, a.groups});
-  if (std::filesystem::exists(a.template_text)) a.run.read_files.push_back(a.template_text);
-  for (const VariantFiles& file : files) a.run.read_files.insert(a.run.read_files.end(), {file.structure, file.map});
-  a.run.through_template = !a.template_text.empty();
-  check_matrix_files(a.run, {});
+  study.run = a.run;
+  for (const VariantFiles& files : chosen_variants(a)) study.variants.push_back(item_of(a, files));
+  study.run.read_files = {a.list, a.groups};
   const std::unique_ptr<Engine> engine = make_engine(a.device);
-  const States states = read_states(a, files, options, *context.progress);
-  a.run.potential = states.plan.computes() ? states.plan.in_words() : "maps";
-  a.run.radii_note = states.radii_note;
-  const MatrixReport report = compute(a, *engine, states.variants, options, *context.progress);
+  const MatrixReport report = run_matrix(study, *engine, *context.progress);
   context.progress->report("write", 1.0);
   if (!a.quiet) print_report(a, *engine, report);
   return 0;

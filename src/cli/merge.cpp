@@ -6,10 +6,9 @@
 #ifdef ESPDIFF_HAVE_HDF5
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_run.h"
-#include "ensemble/template_matrix.h"
 #endif
-#include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
+#include "study/matrix_study.h"
 
 namespace espdiff::cli {
 namespace {
@@ -34,18 +33,11 @@ int run_ensemble_merge(const MergeArguments& a) {
 }
 #endif
 
-MatrixReport merged(const MergeArguments& a) {
-#ifdef ESPDIFF_HAVE_HDF5
-  if (are_parts_of_template_matrix(a.states)) return merge_template_matrix(a.states, a.run);
-#endif
-  return merge_matrix(a.states, a.run);
-}
-
 int merge_verb(const MergeArguments& a, const Context&) {
 #ifdef ESPDIFF_HAVE_HDF5
-  if (is_hdf5_file(a.states.front()) && !are_parts_of_template_matrix(a.states)) return run_ensemble_merge(a);
+  if (is_hdf5_file(a.states.front()) && !are_template_parts(a.states)) return run_ensemble_merge(a);
 #endif
-  const MatrixReport report = merged(a);
+  const MatrixReport report = merge_parts(a.states, a.run);
   if (a.quiet) return 0;
   const Matrix& matrix = *report.matrix;
   print_matrix(std::cout, matrix, metric_to_cluster_by(a.run, matrix));

@@ -8,8 +8,6 @@
 #include "io/molfile_plugins.h"
 #include "io/open_structure.h"
 #include "io/structure_file.h"
-#include "prepare/region.h"
-#include "prepare/surface_radii.h"
 #include "report/state_report.h"
 #include "trajectory/frame_state.h"
 
@@ -60,8 +58,12 @@ void MovingState::load(const std::string& topology, const std::vector<std::strin
   if (is_topology) inputs_.push_back({name + "_coordinates", files.front(), file.sha256()});
 }
 
-LoadedState MovingState::read(int number, StateRole role, const PotentialPlan& potential) {
-  return load_frame_state(*frames_, number, a_.structure, state_, potential, options_, progress_, role);
+ComparedState MovingState::read(int number, StateRole role, const PotentialPlan& potential) {
+  ComparedState state;
+  state.role = to_string(role);
+  state.loaded =
+      load_frame_state(*frames_, number, a_.structure, state_, potential.takes_everything(), options_, progress_, role);
+  return state;
 }
 
 namespace {
@@ -88,14 +90,23 @@ TrajectorySides::TrajectorySides(const TrajectoryArguments& a, const CompareOpti
   check_left_out(options_, {&first_.state(), &target});
   inputs_ = first_.inputs();
   if (second_) inputs_.insert(inputs_.end(), second_->inputs().begin(), second_->inputs().end());
-  source_map_ = given_map(a.maps, "source", inputs_);
-  target_map_ = given_map(a.maps, "target", inputs_);
-  if (!has_given_maps(a.maps) && a.maps.potential != "none")
+  for (State* map : {&source_map_, &target_map_}) {
+    const bool is_source = map == &source_map_;
+    *map = with_given_map(a.maps, is_source);
+    read_given_map(*map);  // one for all frames
+    if (map->map == nullptr) continue;
+    inputs_.push_back(map->map_input);
+    inputs_.back().role = is_source ? "source_map" : "target_map";
+  }
+  temperature_K_ = options.temperature_K;
+  if (!has_given_maps(a.maps))
     plan_ = PotentialPlan(a.maps, {facts_of(first_.state()), facts_of(target)}, options.temperature_K);
   if (reference_ != Reference::kOne) return;
-  source_ = first_.state();
-  use_source();
-  if (computed_) inputs_.push_back(computed_input("source_map", *computed_));
+  ComparedState source;
+  source.role = "source";
+  source.loaded = first_.state();
+  use_source(std::move(source));
+  if (plan_.computes()) inputs_.push_back(source_.state().map_inputs.front());
 }
 
 void TrajectorySides::open_targets(const Progress& progress) {
@@ -121,29 +132,15 @@ FrameSet TrajectorySides::frames() const {
 }
 
 StepInput TrajectorySides::step(const TrajectoryStep& step) {
-  if (step.source) {
-    source_ = first_.read(*step.source, StateRole::kSource, plan_);
-    use_source();
-  }
-  const CompareInput source{&surface_, source_map_ ? &*source_map_ : nullptr,
-                            computed_ ? computed_->maker() : MapMaker(), parts_};
-  return {source, frame(step.frame), {}};
+  if (step.source) use_source(first_.read(*step.source, StateRole::kSource, plan_));
+  target_ = targets().read(step.frame, StateRole::kTarget, plan_);
+  add_map(target_map_, plan_, temperature_K_, target_);
+  return {source_.side(), source_.frame(target_, options_), {}, &source_.loaded(), &target_.loaded};
 }
 
-/// The source's surface, its parts and potential.
-void TrajectorySides::use_source() {
-  surface_ = source_.molecule;
-  parts_ = source_parts(source_.molecule, source_.whole, source_.molecule, source_.whole, options_);
-  set_surface_radii({&surface_}, options_.radii);
-  if (plan_.computes()) computed_ = plan_.map_of(source_);
-}
-
-CompareInput TrajectorySides::frame(int number) {
-  target_ = targets().read(number, StateRole::kTarget, plan_);
-  CompareInput input{&target_.molecule, target_map_ ? &*target_map_ : nullptr, nullptr, {}};
-  if (plan_.computes()) input.make_map = plan_.map_of(target_).maker();
-  set_frame_radii(surface_, target_.molecule, options_.radii);
-  return input;
+void TrajectorySides::use_source(ComparedState source) {
+  add_map(source_map_, plan_, temperature_K_, source);
+  source_.take(std::move(source), options_);
 }
 
 }  // namespace espdiff::cli

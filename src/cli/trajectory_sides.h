@@ -9,7 +9,7 @@
 #include "base/types.h"
 #include "cli/map_options.h"
 #include "cli/options.h"
-#include "prepare/load_state.h"
+#include "study/series_source.h"
 #include "trajectory/frame_files.h"
 #include "trajectory/frame_range.h"
 #include "trajectory/trajectory.h"
@@ -51,7 +51,7 @@ class MovingState {
   int n_frames() const { return frames_->n_frames(); }
   const std::string& incomplete() const { return frames_->incomplete(); }
   /// @throws as load_frame_state()
-  LoadedState read(int number, StateRole role, const PotentialPlan& potential);
+  ComparedState read(int number, StateRole role, const PotentialPlan& potential);
 
  private:
   void open(const std::vector<std::string>& files);
@@ -87,20 +87,18 @@ class TrajectorySides {
   void open_targets(const Progress& progress);
   MovingState& targets() { return second_ ? *second_ : first_; }
   const MovingState& targets() const { return second_ ? *second_ : first_; }
-  void use_source();
-  CompareInput frame(int number);
+  void use_source(ComparedState source);
 
   const TrajectoryArguments& a_;
   const InputOptions& options_;
   Reference reference_;
   MovingState first_;                  // of the source
   std::optional<MovingState> second_;  // of the frames, where they are not the source's molecule
-  LoadedState source_, target_;
-  Molecule surface_;    // the source's, with the radii of its surface
-  SurfaceParts parts_;  // of the source
+  SeriesSource source_;
+  ComparedState target_;
   PotentialPlan plan_;
-  std::optional<Grid> source_map_, target_map_;
-  std::optional<ComputedMap> computed_;
+  double temperature_K_ = 0;       // of the kT in computed maps
+  State source_map_, target_map_;  // the given maps of all frames
   std::vector<InputFile> inputs_;
 };
 

@@ -197,7 +197,8 @@ LoadedState EnsembleInputs::load(std::size_t number) {
       frames_ = std::make_unique<FrameFiles>(asked.files, opener_of(asked.topology));
       open_ = replicate;
     }
-    state = load_frame_state(*frames_, chosen, request_.structure, reference, potential_, options_.input, progress_);
+    state = load_frame_state(*frames_, chosen, request_.structure, reference, potential_.takes_everything(),
+                             options_.input, progress_);
   }
   if (!maps_.given() && !has_charges(state.molecule))
     throw InputError(state.molecule.name + " has no charges; give them by " +

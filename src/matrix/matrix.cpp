@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "base/error.h"
 #include "base/formatted.h"
@@ -16,6 +17,8 @@
 #include "compare/result.h"
 #include "compare/series.h"
 #include "io/text_cursor.h"
+#include "prepare/surface_radii.h"
+#include "report/state_report.h"
 
 namespace espdiff {
 namespace {
@@ -62,9 +65,45 @@ MatrixCell failed_cell(const MatrixPair& pair, const std::string& error, const s
   return cell;
 }
 
-CompareInput input_of(const Variant& variant) {
-  return {&variant.molecule, variant.map ? &*variant.map : nullptr, variant.make_map, variant.parts};
+CompareInput input_of(const Variant& variant, const Molecule& molecule) {
+  return {&molecule, variant.map ? &*variant.map : nullptr, variant.make_map, variant.parts};
 }
+
+Molecule with_element_radii(Molecule molecule) {
+  set_surface_radii({&molecule}, RadiiChoice::kElement);
+  return molecule;
+}
+
+/// The targets of one source. Its surface is made once by its own radii, and once by Bondi's for targets whose radii
+/// are of another kind, as compare() takes them for such a pair.
+class SourceOfPairs {
+ public:
+  SourceOfPairs(Engine& engine, const Variant& source, const CompareOptions& options)
+      : engine_(engine), source_(source), options_(options) {}
+
+  CompareResult compare(const Variant& target, const Progress& progress) {
+    std::string note;
+    if (options_.input.radii == RadiiChoice::kAuto) note = radii_conflict(source_.molecule, target.molecule);
+    std::unique_ptr<Series>& series = note.empty() ? own_ : element_;
+    if (series == nullptr && !note.empty()) molecule_ = with_element_radii(source_.molecule);
+    if (series == nullptr)
+      series =
+          std::make_unique<Series>(engine_, input_of(source_, note.empty() ? source_.molecule : molecule_), options_);
+    const Molecule other = note.empty() ? Molecule() : with_element_radii(target.molecule);
+    CompareResult result =
+        series->step(input_of(target, note.empty() ? target.molecule : other), StartFrom::kSource, progress);
+    note_states(result, source_.origin, target.origin, note);
+    if (!note.empty()) result.warnings.push_back({note + "; both surfaces take Bondi's radii by element"});
+    return result;
+  }
+
+ private:
+  Engine& engine_;
+  const Variant& source_;
+  const CompareOptions& options_;
+  Molecule molecule_;  // with Bondi's radii
+  std::unique_ptr<Series> own_, element_;
+};
 
 }  // namespace
 
@@ -115,8 +154,8 @@ std::vector<MatrixPair> matrix_pairs(std::size_t n_variants, const Shard& shard)
 void compute_pairs(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                    const std::vector<MatrixPair>& pairs, bool skip_errors,
                    const std::function<void(const MatrixCell&)>& done, const Progress& progress) {
-  std::unique_ptr<Series> series;
-  std::size_t prepared = variants.size();
+  std::optional<SourceOfPairs> prepared;
+  std::size_t number = variants.size();
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const Variant &source = variants.at(pairs[p].first), &target = variants.at(pairs[p].second);
     const std::string name = source.label + " to " + target.label;
@@ -126,11 +165,9 @@ void compute_pairs(Engine& engine, const std::vector<Variant>& variants, const C
     });
     MatrixCell cell;
     try {
-      if (prepared != pairs[p].first) {
-        series = std::make_unique<Series>(engine, input_of(source), options);
-        prepared = pairs[p].first;
-      }
-      cell = cell_of(pairs[p], series->step(input_of(target), StartFrom::kSource, stages));
+      if (number != pairs[p].first) prepared.emplace(engine, source, options);
+      number = pairs[p].first;
+      cell = cell_of(pairs[p], prepared->compare(target, stages));
     } catch (const Cancelled&) {
       throw;
     } catch (const Error& error) {

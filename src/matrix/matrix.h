@@ -49,8 +49,9 @@ Shard parse_shard(const std::string& text);
 std::vector<MatrixPair> matrix_pairs(std::size_t n_variants, const Shard& shard = {});
 
 /// Compares pairs in the given order. A source's surface is made and regularized once for consecutive pairs. A target's
-/// surface is made again for each pair, along the axes of the source, as in compare(): a cell has the same bits as
-/// compare() of its pair, in any order and part of the matrix.
+/// surface is made again for each pair, along the axes of the source, as in compare(). By RadiiChoice::kAuto a pair
+/// whose radii are of different kinds takes Bondi's on both sides, whatever the others have: a cell has the same bits
+/// as compare() of its pair, in any order and part of the matrix.
 /// @param skip_errors a pair that cannot be compared becomes a cell with the error; otherwise its error is thrown, with
 /// the labels of the pair
 /// @param done        called with each finished cell

@@ -16,7 +16,7 @@ struct MatrixRun {
   bool overwrite = false;    ///< start again and replace results and state files
   bool skip_errors = false;  ///< see compute_pairs()
   std::string potential;     ///< description, for the results
-  std::string radii_note;    ///< of set_surface_radii(), for the results; may be empty
+  std::string radii_note;    ///< where radii are replaced, for the results; may be empty
   std::string cluster_by;    ///< a metric; empty: usual_metric()
   /// Further files that no output may replace, such as a list.
   std::vector<std::string> read_files{};

@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/input_options.h"
 #include "io/read_csv.h"
-#include "io/read_grid.h"
 #include "io/structure_file.h"
 #include "io/text_cursor.h"
 #include "prepare/region.h"
@@ -155,25 +154,6 @@ void check_labels(const std::vector<std::string>& labels) {
     if (!seen.insert(label).second)
       throw InputError("two variants are labelled '" + label + "'; give each one a label of its own, in a list");
   }
-}
-
-Variant read_variant(const VariantFiles& files, const StructureFile& file, Molecule molecule,
-                     const std::string& map_array) {
-  Variant variant;
-  variant.label = files.label;
-  variant.group = files.group;
-  file.require_unchanged(files.sha256);
-  variant.molecule = std::move(molecule);
-  const std::string model = files.model > 1 ? ", model " + std::to_string(files.model) : "";
-  variant.inputs.push_back({"structure", files.structure + model, file.sha256()});
-  if (files.map.empty()) return variant;
-  GridOptions grid;
-  grid.array = map_array;
-  grid.unit = files.map_unit;
-  GridFile map = read_grid_file(files.map, grid);
-  variant.map = std::move(map.grid);
-  variant.inputs.push_back({"map", files.map, std::move(map.sha256)});
-  return variant;
 }
 
 void set_parts(std::vector<Variant>& variants, const std::vector<const Molecule*>& wholes,

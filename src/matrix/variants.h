@@ -9,11 +9,11 @@
 #include "base/structure_options.h"
 #include "base/types.h"
 #include "compare/input.h"
+#include "prepare/load_state.h"
 #include "report/provenance.h"
 
 namespace espdiff {
 
-class StructureFile;
 struct InputOptions;
 
 /// One molecule of a matrix and its potential.
@@ -25,6 +25,7 @@ struct Variant {
   std::optional<Grid> map;
   MapMaker make_map = nullptr;  ///< instead of `map`; in kT/e
   SurfaceParts parts{};         ///< as the source of a pair
+  StateOrigin origin{};         ///< for the warnings of its cells
 
   bool has_potential() const { return map || make_map != nullptr; }
 };
@@ -35,7 +36,7 @@ std::vector<std::string> input_paths(const std::vector<Variant>& variants);
 /// Files of a variant.
 struct VariantFiles {
   std::string structure;
-  std::string sha256;  ///< of the structure file, where its models were counted; read_variant() wants the same
+  std::string sha256;  ///< of the structure file, where its models were counted
   int model = 1;
   std::string map;       ///< empty for none
   std::string map_unit;  ///< empty: from the file
@@ -59,13 +60,6 @@ void read_groups(const std::string& path, std::vector<VariantFiles>& variants);
 
 /// @throws InputError naming an empty label or one that two variants share, with the remedy
 void check_labels(const std::vector<std::string>& labels);
-
-/// A variant of a loaded molecule, with its map.
-/// @param file     the structure's: variants may be models of one file
-/// @param molecule as it is compared
-/// @throws as read_grid(); IoError (the structure was changed since its models were counted)
-Variant read_variant(const VariantFiles& files, const StructureFile& file, Molecule molecule,
-                     const std::string& map_array);
 
 /// Sets region and patches of each variant, by its own residues and atoms. A variant without the atoms that the region
 /// is near to takes the region of the first variant that has them, carried over by the pairing of residues.

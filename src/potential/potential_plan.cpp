@@ -30,12 +30,15 @@ PotentialFacts facts_of(const LoadedState& state) {
   return potential_facts(state.everything.size() > 0 ? state.everything : state.molecule, state.cell);
 }
 
+std::string reason_in_full(const PotentialChoice& choice) {
+  if (choice.method || choice.because.empty() || !find_pdb2pqr().empty()) return choice.because;
+  return choice.because + ", and PDB2PQR, which assigns some, is not there; " + kPdb2pqrRemedy;
+}
+
 PotentialPlan::PotentialPlan(const PotentialRequest& asked, const std::vector<PotentialFacts>& facts,
                              double temperature_K) {
   const PotentialChoice choice = choose_potential(asked.potential, asked.cell, facts, asked.averaged);
-  because_ = choice.because;
-  if (!choice.method && !because_.empty() && find_pdb2pqr().empty())
-    because_ += std::string(", and PDB2PQR, which assigns some, is not there; ") + kPdb2pqrRemedy;
+  because_ = reason_in_full(choice);
   own_cell_ = choice.method == PotentialMethod::kPme && choice.own_cell;
   const bool usual_cell = choose_potential(asked.potential, "auto", facts, asked.averaged).own_cell;
   if (choice.method == PotentialMethod::kPme && choice.own_cell != usual_cell)

@@ -30,6 +30,9 @@ LoadedState load_for(const PotentialRequest& asked, bool wants_charges, const St
 /// What a state brings for a potential.
 PotentialFacts facts_of(const LoadedState& state);
 
+/// The reason of a choice; where no potential is computed for lack of charges, also what would assign some.
+std::string reason_in_full(const PotentialChoice& choice);
+
 /// How the potentials of all sides are computed; nothing where none are.
 class PotentialPlan {
  public:

@@ -30,15 +30,19 @@ struct ChargeFile {
   std::string path, sha256;
 };
 
+/// What a result says about how a state was made.
+struct StateOrigin {
+  std::optional<Preparation> preparation;  ///< where PDB2PQR made the charges
+  std::vector<ChargeFile> charge_files;
+};
+
 /// A state as it is compared.
-struct LoadedState {
+struct LoadedState : StateOrigin {
   Molecule molecule;  ///< has the surface; its charges count for pb and coulomb
   /// For pme in the file's cell: with water and ions. Empty unless the file or a topology has charges.
   Molecule everything;
   std::optional<UnitCell> cell;
-  Molecule whole;  ///< the file's atoms without water, before the selection; regions refer to it
-  std::optional<Preparation> preparation;  ///< where PDB2PQR made the charges
-  std::vector<ChargeFile> charge_files;
+  Molecule whole;              ///< the file's atoms without water, before the selection; regions refer to it
   std::size_t n_left_out = 0;  ///< atoms that leave_out dropped
   bool is_changed = false;     ///< the molecule is not what the file alone gives
 };

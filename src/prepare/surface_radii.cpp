@@ -45,15 +45,20 @@ void take_element_radii(Molecule& molecule) {
 
 }  // namespace
 
+std::string radii_conflict(const Molecule& a, const Molecule& b) {
+  if (a.radii_origin != b.radii_origin) return "only some of the structures have radii of their own";
+  if (a.radii_origin != ValueOrigin::kFile || have_one_force_field(a, b)) return {};
+  return "the radii of the structures are of different force fields";
+}
+
 void set_frame_radii(const Molecule& source, Molecule& frame, RadiiChoice choice) {
   set_surface_radii({&frame}, choice);
   if (choice != RadiiChoice::kAuto || source.size() == 0) return;
-  const bool same_origin = frame.radii_origin == source.radii_origin;
-  if (same_origin && (source.radii_origin != ValueOrigin::kFile || have_one_force_field(source, frame))) return;
-  throw InputError(frame.name + ": its radii are not of the kind that " + source.name + " has (" +
-                   (same_origin ? "another force field" : "only one of them has radii of its own") +
-                   "), so that their surfaces differ everywhere; " + option("radii", "element") +
-                   " gives both Bondi's");
+  if (radii_conflict(source, frame).empty()) return;
+  throw InputError(
+      frame.name + ": its radii are not of the kind that " + source.name + " has (" +
+      (frame.radii_origin == source.radii_origin ? "another force field" : "only one of them has radii of its own") +
+      "), so that their surfaces differ everywhere; " + option("radii", "element") + " gives both Bondi's");
 }
 
 std::string set_surface_radii(const std::vector<Molecule*>& molecules, RadiiChoice choice) {
@@ -70,14 +75,10 @@ std::string set_surface_radii(const std::vector<Molecule*>& molecules, RadiiChoi
     return {};
   }
   if (molecules.empty()) return {};
-  const Molecule& first = *molecules.front();
   std::string why;
   for (const Molecule* molecule : molecules) {
-    if (molecule->radii_origin != first.radii_origin) {
-      why = "only some of the structures have radii of their own";
-    } else if (first.radii_origin == ValueOrigin::kFile && !have_one_force_field(first, *molecule)) {
-      why = "the radii of the structures are of different force fields";
-    }
+    const std::string conflict = radii_conflict(*molecules.front(), *molecule);
+    if (!conflict.empty()) why = conflict;
   }
   if (why.empty()) return {};
   for (Molecule* molecule : molecules) take_element_radii(*molecule);

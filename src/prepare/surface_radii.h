@@ -9,6 +9,10 @@
 
 namespace espdiff {
 
+/// Why the radii of two molecules give surfaces that differ everywhere: only one has some from a file, or their force
+/// fields differ. Empty where they go together.
+std::string radii_conflict(const Molecule& a, const Molecule& b);
+
 /// Sets the radii by which surfaces are made. kAuto keeps the files' radii where all molecules have some of one origin
 /// and, for 9 in 10 of the atoms that share residue and atom names, of one force field (equal within 0.01 A);
 /// otherwise all take Bondi's by element. Potentials that were computed keep the radii they were given.

@@ -21,7 +21,7 @@ std::string joined(const std::vector<std::string>& items, std::size_t most) {
   return items.size() > most ? text + "; and " + std::to_string(items.size() - most) + " more" : text;
 }
 
-void note_state(CompareResult& result, const std::string& role, const LoadedState& state) {
+void note_state(CompareResult& result, const std::string& role, const StateOrigin& state) {
   const std::string label = "Charges, " + role;
   for (const ChargeFile& file : state.charge_files) {
     if (file.use != "ligand") result.input_lines.emplace_back(label, "of " + file.path);
@@ -61,13 +61,13 @@ std::vector<KeptFile> kept_structure(const std::string& role, const LoadedState&
   return {{role, "." + role + ".pqr", content.str()}};
 }
 
-void note_states(CompareResult& result, const LoadedState& source, const LoadedState& target,
+void note_states(CompareResult& result, const StateOrigin& source, const StateOrigin& target,
                  const std::string& radii_note) {
   note_state(result, "source", source);
   note_state(result, "target", target);
   if (!radii_note.empty()) result.input_lines.emplace_back("Radii", radii_note);
   double ms = 0;
-  for (const LoadedState* state : {&source, &target}) {
+  for (const StateOrigin* state : {&source, &target}) {
     if (state->preparation) ms += 1000 * state->preparation->seconds;
   }
   if (ms == 0) return;

@@ -11,7 +11,7 @@ namespace espdiff {
 struct CompareResult;
 struct KeptFile;
 struct LoadedState;
-struct Molecule;
+struct StateOrigin;
 
 /// Where the states come from: their files, as they were read, and the files that charges were taken from.
 std::vector<InputFile> state_inputs(const std::string& role, const InputFile& file, const LoadedState& state);
@@ -22,7 +22,7 @@ std::vector<KeptFile> kept_structure(const std::string& role, const LoadedState&
 
 /// Adds what PDB2PQR did, missing loops and replaced radii to a result's lines and warnings, and the time it took.
 /// @param radii_note of set_surface_radii(); may be empty
-void note_states(CompareResult& result, const LoadedState& source, const LoadedState& target,
+void note_states(CompareResult& result, const StateOrigin& source, const StateOrigin& target,
                  const std::string& radii_note);
 
 }  // namespace espdiff

@@ -9,16 +9,16 @@
 namespace espdiff {
 
 class FrameFiles;
-class PotentialPlan;
 
 /// Loads a frame as load_frame() does; with water and ions where the potential counts them, whose charges are then
 /// those of the reference unless the frame has its own.
 /// @param frame     from 0, of all files
+/// @param takes_everything see PotentialPlan
 /// @param role      whose selection and topology count
 /// @param reference the state that the frames take charges and preparation from
 /// @throws as load_frame(), take_values()
 LoadedState load_frame_state(FrameFiles& files, int frame, StructureOptions structure, const LoadedState& reference,
-                             const PotentialPlan& potential, const InputOptions& options, const Progress& progress,
+                             bool takes_everything, const InputOptions& options, const Progress& progress,
                              StateRole role = StateRole::kTarget);
 
 }  // namespace espdiff

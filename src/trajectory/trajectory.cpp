@@ -11,6 +11,7 @@
 #include "compare/result.h"
 #include "io/text_cursor.h"
 #include "report/residue_values.h"
+#include "report/state_report.h"
 #include "trajectory/series_file.h"
 
 namespace espdiff {
@@ -222,7 +223,8 @@ SeriesRow TrajectoryRun::compare(Engine& engine, const StepInput& input, const P
     series_ = std::make_unique<Series>(engine, input.source, plan_.options);
   if (restored_) series_->restore(std::move(*restored_));
   restored_.reset();
-  const CompareResult result = series_->step(input.target, start_of_step(), progress);
+  CompareResult result = series_->step(input.target, start_of_step(), progress);
+  if (input.source_origin != nullptr) note_states(result, *input.source_origin, *input.target_origin, {});
   residue_line_.reset();
   if (residues_) residue_line_ = residues_->row(next().frame, *input.source.molecule, *input.target.molecule, result);
   return {next().frame, next().reference, *input.source.molecule, *input.target.molecule, result, plan_.options};

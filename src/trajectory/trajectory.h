@@ -18,6 +18,8 @@
 
 namespace espdiff {
 
+struct StateOrigin;
+
 /// What each frame is compared with: one source, the frame before it, or the frame of the same number of another
 /// trajectory.
 enum class Reference { kOne, kPrevious, kSame };
@@ -49,7 +51,9 @@ struct TrajectoryStep {
 /// until the run ends.
 struct StepInput {
   CompareInput source, target;
-  std::vector<InputFile> inputs{};  ///< inputs that all rows depend on; see TrajectoryRun::note_inputs()
+  std::vector<InputFile> inputs{};             ///< inputs that all rows depend on; see TrajectoryRun::note_inputs()
+  const StateOrigin* source_origin = nullptr;  ///< for the row's warnings; both or none
+  const StateOrigin* target_origin = nullptr;
 };
 
 struct TrajectorySummary {

@@ -7,23 +7,39 @@ namespace eval ::espdiff::gui {
     variable form
     array set form {residues,sort share residues,falling 1 residues,face 1 residues,least 0}
 
-    # Key of `espdiff residues`, or share: area times |difference|, of the sum over all residues. Heading, whether it needs potentials, decimals, factor.
-    variable residue_columns {
-        residue Residue 0 "" 1
-        share "Share %" 1 1 100
-        mean_abs_difference "|Diff.|" 1 2 1
-        mean_signed_difference Diff. 1 2 1
-        mean_source Source 1 2 1
-        mean_target Target 1 2 1
-        sign_change_area_fraction "Sign %" 1 0 100
-        mean_displacement_A "Moved \u00c5" 0 2 1
-        area_A2 "Area \u00c5\u00b2" 0 1 1
+    # Columns: key of `espdiff residues`, or share (area times |difference|, of the sum over all residues); heading, whether
+    # it needs potentials, decimals, factor.
+    variable residue_columns {}
+    # Short headings; other metrics of residues have their title.
+    variable residue_headings {
+        mean_abs_difference |Diff.| mean_signed_difference Diff. mean_source Source mean_target Target
+        sign_change_area_fraction Sign own_difference "Own diff." own_area_A2 "Own area" mean_displacement_A Moved
+        mean_path_length_A Path mean_slip_A Slip slip_area_fraction Slipped trusted_area_fraction Trusted area_A2 Area
+    }
+
+    # The columns of every metric that residues have, those of potentials first.
+    proc make_residue_columns {} {
+        variable residue_columns {residue Residue 0 "" 1 share "Share %" 1 1 100}
+        variable residue_headings
+        set others {}
+        foreach metric [::espdiff::core::metrics] {
+            if {![dict get $metric residues]} continue
+            set name [dict get $metric name]
+            set heading [::espdiff::value_or $residue_headings $name [dict get $metric title]]
+            lassign [dict get {fraction {" %" 0} length {" \u00c5" 2} area {" \u00c5\u00b2" 1}
+                potential {"" 2} index {"" 2} count {"" 0}} [dict get $metric kind]] unit decimals
+            set of_potentials [expr {[dict get $metric section] eq "potential"}]
+            lappend [expr {$of_potentials ? "residue_columns" : "others"}] \
+                $name $heading$unit $of_potentials $decimals [dict get $metric factor]
+        }
+        lappend residue_columns {*}$others
     }
 
     proc build_residues {path} {
         variable widget
         variable residue_columns
         variable residues_of -  ;# no handle: the table is new
+        make_residue_columns
         ttk::frame $path.top
         ttk::label $path.title -anchor w -width 28 -font [bold_font]
         ttk::combobox $path.top.sort -state readonly -width 12
@@ -45,14 +61,19 @@ namespace eval ::espdiff::gui {
         set columns {}
         foreach {key heading of_potentials decimals factor} $residue_columns { lappend columns $key }
         ttk::treeview $path.list.table -columns $columns -show headings -height 18 -selectmode extended -style Espdiff.Treeview \
-            -yscrollcommand [list $path.list.scroll set]
+            -yscrollcommand [list $path.list.scroll set] -xscrollcommand [list $path.list.across set]
         foreach {key heading of_potentials decimals factor} $residue_columns {
             $path.list.table heading $key -command [list ::espdiff::gui::guard_in residues ::espdiff::gui::sort_by $key]
-            $path.list.table column $key -width [expr {$key eq "residue" ? 86 : 76}] \
+            $path.list.table column $key -width [expr {$key eq "residue" ? 86 : 76}] -stretch 0 \
                 -anchor [expr {$key eq "residue" ? "w" : "e"}]
         }
         ttk::scrollbar $path.list.scroll -orient vertical -command [list $path.list.table yview] -takefocus 0
+        ttk::scrollbar $path.list.across -orient horizontal -command [list $path.list.table xview] -takefocus 0
         grid $path.list.table $path.list.scroll -sticky news
+        grid $path.list.across -sticky we
+        # The window is narrower than all columns.
+        $path.list configure -width 620 -height [expr {[winfo reqheight $path.list.table] + [winfo reqheight $path.list.across]}]
+        grid propagate $path.list 0
         grid columnconfigure $path.list 0 -weight 1
         grid rowconfigure $path.list 0 -weight 1
         build_residue_buttons $path.buttons
@@ -207,8 +228,8 @@ namespace eval ::espdiff::gui {
         set unit [potential_unit]
         set text "Means over each residue's part of the surface; Share is its part of the sum of |Diff.| times area"
         if {$unit ne ""} {
-            append text "; potentials in $unit. Diff. is target - source, Sign the share of the area whose sign\
-                changes"
+            append text "; potentials in $unit. Diff. is target - source, Sign the area whose sign changes,\
+                Own diff. that without a mapping"
         }
         append text "[expr {$unit eq "" ? ";" : ","}] Moved the mean displacement."
         if {[in_vmd]} { append text " A click on a row highlights the residue in VMD." }

@@ -48,15 +48,18 @@ const Rooms kAllowed = {
     {"ensemble",
      {"system", "base", "align", "causes", "engine", "field", "io", "statistics", "compare", "prepare", "potential",
       "report", "trajectory", "matrix"}},
-    {"cli",
-     {"system", "base", "align", "engine", "field",  "io",     "statistics",      "compare",    "prepare", "potential",
-      "plot",   "view", "page",  "export", "verify", "report", "complementarity", "trajectory", "matrix",  "ensemble"}},
+    {"study",
+     {"base", "align", "engine", "io", "compare", "prepare", "potential", "report", "trajectory", "matrix",
+      "ensemble"}},
+    {"cli", {"system",  "base",    "align",           "engine",     "field",  "io",       "statistics",
+             "compare", "prepare", "potential",       "plot",       "view",   "page",     "export",
+             "verify",  "report",  "complementarity", "trajectory", "matrix", "ensemble", "study"}},
     {"vmdplugin",
      {"system", "base", "align", "engine", "field", "io", "statistics", "compare", "prepare", "potential", "plot",
-      "report", "page", "trajectory", "matrix", "ensemble"}},
+      "report", "page", "trajectory", "matrix", "ensemble", "study"}},
     {"python/src",
      {"base", "align", "engine", "field", "io", "statistics", "compare", "prepare", "potential", "report", "trajectory",
-      "matrix", "ensemble", "plot", "page", "cli"}},
+      "matrix", "ensemble", "study", "plot", "page", "cli"}},
 };
 
 std::string quoted_include(const std::string& line) {

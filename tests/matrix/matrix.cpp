@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 #include "io/read_csv.h"
 #include "matrix/made_variants.h"
 #include "matrix/write_matrix.h"
+#include "prepare/surface_radii.h"
 #include "support/test_data.h"
 #include "support/text.h"
 
@@ -103,6 +105,56 @@ TEST_CASE("every cell holds the bits of the comparison of its pair") {
                          },
                          {});
   CHECK(n == 6);
+}
+
+TEST_CASE("a variant whose radii are of another force field changes no cell but its own, which are its pairs'") {
+  const auto engine = cpu_engine();
+  std::vector<Variant> variants = made_variants(3);
+  for (Variant& variant : variants) variant.molecule.radii_origin = espdiff::ValueOrigin::kFile;
+  for (float& radius : variants[2].molecule.radii) radius *= 1.1F;
+  const CompareOptions options = matrix_options();
+  const auto cells_of = [&](std::size_t n) {
+    std::vector<MatrixCell> cells;
+    const std::vector<Variant> some(variants.begin(), variants.begin() + static_cast<long>(n));
+    espdiff::compute_pairs(*engine, some, options, espdiff::matrix_pairs(n), false,
+                           [&](const MatrixCell& cell) { cells.push_back(cell); }, {});
+    return cells;
+  };
+  const std::vector<MatrixCell> two = cells_of(2), three = cells_of(3);
+  const std::string note =
+      "the radii of the structures are of different force fields; both surfaces take Bondi's radii by element";
+  for (const MatrixCell& cell : three) {
+    const bool differs = cell.source == 2 || cell.target == 2;
+    CHECK((std::find(cell.warnings.begin(), cell.warnings.end(), note) != cell.warnings.end()) == differs);
+    Variant a = variants[cell.source], b = variants[cell.target];
+    const std::string because = espdiff::set_surface_radii({&a.molecule, &b.molecule}, options.input.radii);
+    CHECK(because.empty() != differs);
+    const CompareResult alone = compare(*engine, {&a.molecule, &*a.map}, {&b.molecule, &*b.map}, options, {});
+    for (std::size_t m = 0; m < espdiff::matrix_metrics().size(); ++m)
+      CHECK(cell.values[m] == value_of(espdiff::matrix_metrics()[m], alone));
+  }
+  for (const MatrixCell& cell : two) {
+    const auto same = std::find_if(three.begin(), three.end(), [&](const MatrixCell& other) {
+      return other.source == cell.source && other.target == cell.target;
+    });
+    CHECK(cell.values == same->values);
+  }
+}
+
+TEST_CASE("a cell has what its states' preparation left doubtful among its warnings") {
+  const auto engine = cpu_engine();
+  std::vector<Variant> variants = made_variants(2);
+  variants[1].origin.preparation.emplace();
+  variants[1].origin.preparation->gaps = {"between GLY 10 and ALA 15 of chain A"};
+  std::vector<MatrixCell> cells;
+  espdiff::compute_pairs(*engine, variants, matrix_options(), {{0, 1}, {1, 0}}, false,
+                         [&](const MatrixCell& cell) { cells.push_back(cell); }, {});
+  REQUIRE(cells.size() == 2);
+  const std::string text =
+      " lacks residues between GLY 10 and ALA 15 of chain A; they are not modelled, and chain ends there stay "
+      "uncharged";
+  CHECK(std::count(cells[0].warnings.begin(), cells[0].warnings.end(), "the target" + text) == 1);
+  CHECK(std::count(cells[1].warnings.begin(), cells[1].warnings.end(), "the source" + text) == 1);
 }
 
 TEST_CASE("a pair that cannot be compared stops the run, or becomes a cell with the reason") {

@@ -1,6 +1,5 @@
 // variants.cpp: labels, lists and groups, and what is wrong with them.
 #include "matrix/variants.h"
-#include "io/structure_file.h"
 
 #include <doctest/doctest.h>
 
@@ -41,17 +40,6 @@ TEST_CASE("files are labelled by their names, models by their numbers, and equal
   const auto twins = espdiff::variants_of_files({one, twin});
   CHECK(twins[0].label == one);
   CHECK(twins[1].label == twin);
-}
-
-TEST_CASE("a structure that changes after its models were counted is refused") {
-  const ScratchFolder folder;
-  const std::string path = folder.write("one.pqr", models(2));
-  const auto variants = espdiff::variants_of_files({path});
-  const espdiff::StructureFile before(path);
-  CHECK(read_variant(variants[1], before, before.read({}), "").molecule.size() > 0);
-  folder.write("one.pqr", models(3));
-  CHECK(message_of([&] { read_variant(variants[1], espdiff::StructureFile(path), {}, ""); }) ==
-        path + ": the file was changed while it was in use; start again");
 }
 
 TEST_CASE("a list says what it wants, relative to its folder") {
