@@ -100,8 +100,8 @@ TEST_CASE("fields and patches of the potential are refused without one, and a se
     return message_of([&] { compare(*engine, source.shape(), target.shape(), options, {}); });
   };
   CHECK(refused(with_kinds({{"normal-field", "normal-field"}})) ==
-        "field normal-field: 'Normal component of the electric field' is read from the potential, which these states "
-        "lack; give charges or maps, or leave the field out");
+        "field normal-field: 'Normal electric field' is read from the potential, which these states lack; give charges "
+        "or maps, or leave the field out");
   CHECK(refused(with_kinds({}, {{"potential", 1.0, {}}})) ==
         "patches-of potential>1: these states have no potential; give charges or maps, or another field");
   CHECK(refused(with_kinds({{"d", "distance://Z"}}))

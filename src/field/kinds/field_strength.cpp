@@ -5,7 +5,7 @@
 namespace espdiff {
 
 FieldKind field_strength_kind() {
-  return kind_of_potential({"field-strength", "Strength of the electric field", "kT/e/A", false},
+  return kind_of_potential({"field-strength", "Electric field strength", "kT/e/A", false},
                            "Magnitude of the electric field, |grad potential|, where the potential is read",
                            [](const FieldPlace& place) {
                              std::vector<float> values;

@@ -6,7 +6,7 @@ namespace espdiff {
 
 FieldKind normal_field_kind() {
   return kind_of_potential(
-      {"normal-field", "Normal component of the electric field", "kT/e/A", true},
+      {"normal-field", "Normal electric field", "kT/e/A", true},
       "Component of the electric field along the outward normal, -d(potential)/dn, where the potential is read; "
       "positive drives positive charges away from the surface",
       [](const FieldPlace& place) {
