@@ -20,16 +20,21 @@ void check_options(const SurfaceOptions& options) {
     throw InputError("isovalue " + formatted(options.isovalue) + " is not positive; 0.5 is usual");
 }
 
-AtomsPtr upload(Engine& engine, const Molecule& molecule, const RigidTransform& to_common, double radius_scale) {
+AtomsPtr upload(Engine& engine, const Molecule& molecule, const RigidTransform& to_common, double radius_scale,
+                const std::vector<std::int32_t>& labels) {
   std::vector<Vec3d> positions(molecule.size());
   std::vector<float> widths(molecule.size());
-  std::vector<std::int32_t> residues(molecule.size());
   for (std::size_t i = 0; i < molecule.size(); ++i) {
     positions[i] = to_common.apply(molecule.positions[i]);
     widths[i] = static_cast<float>(radius_scale) * molecule.radii[i];
-    residues[i] = molecule.atoms[i].residue;
   }
-  return engine.upload_atoms(positions, widths, residues);
+  return engine.upload_atoms(positions, widths, labels);
+}
+
+std::vector<std::int32_t> residues_of_atoms(const Molecule& molecule) {
+  std::vector<std::int32_t> residues(molecule.size());
+  for (std::size_t i = 0; i < molecule.size(); ++i) residues[i] = molecule.atoms[i].residue;
+  return residues;
 }
 
 /// Removes closed cavities: components whose normals point into a void.
@@ -46,13 +51,20 @@ void drop_cavities(Engine& engine, Surface& surface) {
 
 }  // namespace
 
+std::vector<std::int32_t> vertex_labels(Engine& engine, const Surface& surface, const MeshPtr& mesh,
+                                        const Molecule& molecule, const RigidTransform& to_common,
+                                        const std::vector<std::int32_t>& labels) {
+  return engine.vertex_residues(mesh, upload(engine, molecule, to_common, surface.radius_scale, labels));
+}
+
 Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTransform& to_common,
                       const SurfaceOptions& options, const Progress& progress, StageClock& clock) {
   check_options(options);
   Surface surface;
   const float isovalue = static_cast<float>(options.isovalue);
   progress.report("density", 0.0);
-  surface.atoms = upload(engine, molecule, to_common, options.radius_scale);
+  surface.radius_scale = options.radius_scale;
+  surface.atoms = upload(engine, molecule, to_common, options.radius_scale, residues_of_atoms(molecule));
   surface.density = engine.density(surface.atoms, options.grid_spacing_A);
   clock.lap("density");
   progress.report("surface", 0.0);
@@ -127,8 +139,8 @@ Grid make_density(Engine& engine, const Molecule& molecule, const SurfaceOptions
   check_options(options);
   RigidTransform to_centre;  // translation only: single precision needs an origin nearby
   for (const Vec3d& p : molecule.positions) to_centre.translation += (-1.0 / static_cast<double>(molecule.size())) * p;
-  Grid density = engine.download(
-      engine.density(upload(engine, molecule, to_centre, options.radius_scale), options.grid_spacing_A));
+  Grid density = engine.download(engine.density(
+      upload(engine, molecule, to_centre, options.radius_scale, residues_of_atoms(molecule)), options.grid_spacing_A));
   density.lattice.origin = density.lattice.origin - to_centre.translation;
   density.name = molecule.name;
   return density;

@@ -23,6 +23,7 @@ constexpr double kProjectionShare = 0.5;
 /// One molecule's surface in the common frame.
 struct Surface {
   AtomsPtr atoms;
+  double radius_scale = 1;
   GridPtr density;
   MeshPtr mesh;                              // without closed cavities, unless the options keep them
   MeshPtr whole;                             // with closed cavities
@@ -35,6 +36,12 @@ struct Surface {
 /// @throws InputError (options, radii), GeometryError (no surface), MemoryError, Cancelled
 Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTransform& to_common,
                       const SurfaceOptions& options, const Progress& progress, StageClock& clock);
+
+/// [vertex] the label of the atom with the largest density at the vertex.
+/// @param labels [atom] of the molecule, from 0  @param mesh in the common frame
+std::vector<std::int32_t> vertex_labels(Engine& engine, const Surface& surface, const MeshPtr& mesh,
+                                        const Molecule& molecule, const RigidTransform& to_common,
+                                        const std::vector<std::int32_t>& labels);
 
 /// The surface after regularization on its own density (thesis section 3.5.5).
 /// @param mesh the surface's `mesh` or `whole`

@@ -286,6 +286,7 @@ struct Series::Steps {
     describe_chains(target, target_of, result);
     Certificate& certificate = result.certificate;
     certificate.trusted = sum_trusted(result.surface, {}, certificate.unmatched_target);
+    certificate.turned = turned_area(result.surface, {}, *source.molecule);
     certificate.untrusted_parts = untrusted_parts(result.surface, result.residues, *source.molecule);
     judge(result, *source.molecule, options.required_share);
     for (const MeasuredPart& part : parts) finish_part(part, result, *source.molecule, options.required_share);

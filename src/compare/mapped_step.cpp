@@ -1,6 +1,7 @@
 // mapped_step.cpp: downloads a mapping, with its residues and its slip.
 #include "compare/mapped_step.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "compare/paired_residues.h"
 #include "compare/residue_rows.h"
 #include "compare/slip.h"
+#include "compare/turned_side_chains.h"
 #include "engine/engine.h"
 
 namespace espdiff {
@@ -36,6 +38,19 @@ void download_surface(Engine& engine, const MappedStep& step, MappedSurface& sur
   surface.unmatched.assign(mapping.unmatched.begin(), mapping.unmatched.end());
   surface.corrupt = to_full_mesh(engine.download(mapping.fit.corrupt), mapping.unmatched);
   surface.path_length = mapping.path_length;
+}
+
+/// Marks the vertices of side chains that turned. Nothing is asked of the device where none did.
+void mark_turned(Engine& engine, const Molecule& source, const Molecule& target, const Surface& source_surface,
+                 MappedStep& step) {
+  std::vector<std::uint8_t>& turned = step.result.surface.turned;
+  turned.assign(step.result.surface.positions.size(), 0);
+  const std::vector<std::uint8_t> atoms = turned_atoms(source, target, step.result.pairing);
+  if (std::count(atoms.begin(), atoms.end(), 1) == 0) return;
+  const std::vector<std::int32_t> labels =
+      vertex_labels(engine, source_surface, step.mapping.source, source, step.frame.from_source,
+                    std::vector<std::int32_t>(atoms.begin(), atoms.end()));
+  for (std::size_t v = 0; v < labels.size(); ++v) turned[v] = labels[v] == 1 ? 1 : 0;
 }
 
 std::vector<Vec3f> rotated(std::vector<Vec3f> normals, const RigidTransform& to_frame) {
@@ -70,6 +85,7 @@ void describe(Engine& engine, const Molecule& source, const Molecule& target, co
   const std::vector<std::int32_t> target_of = paired_residues(source, target, step.result.pairing);
   step.result.certificate.same_residue_area_fraction = same_residue_share(s, s.residue, s.target_residue, target_of);
   s.why = why_of_mapping(s, target_of);
+  mark_turned(engine, source, target, source_surface, step);
   step.result.residues = residue_rows(s, source.residues.size(), false);
 }
 

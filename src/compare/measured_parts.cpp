@@ -75,6 +75,7 @@ void finish_part(const MeasuredPart& measured, const CompareResult& whole, const
   }
   count_outside_maps(place, whole, part);
   part.certificate.trusted = sum_trusted(whole.surface, place.outside, part.certificate.unmatched_target);
+  part.certificate.turned = turned_area(whole.surface, place.outside, source);
   if (judge_missing_part(part, measured.placement.get())) return;
   part.certificate.untrusted_parts = untrusted_parts(whole.surface, part.residues, source);
   judge(part, source, required_share);

@@ -111,6 +111,7 @@ struct Certificate {
   double outside_maps = 0;  ///< fraction of the mapped area at vertices outside a map
   bool converged = false;
   TrustedArea trusted;
+  TurnedArea turned;
   std::vector<std::string> untrusted_parts;  ///< by name, largest first
   bool trustworthy = false;                  ///< on the trusted area; see verdict_of()
   std::vector<Message> reasons;              ///< why not trustworthy
@@ -137,7 +138,8 @@ struct MappedSurface {
   std::vector<std::uint8_t> corrupt;  ///< [triangle]
   /// [triangle] nonzero if unmatched: the mapped positions there are meaningless; empty if all are matched.
   std::vector<std::uint8_t> unmatched;
-  std::vector<std::uint8_t> why;  ///< [triangle] Why it is not trusted, 0 where it is
+  std::vector<std::uint8_t> why;     ///< [triangle] Why it is not trusted, 0 where it is
+  std::vector<std::uint8_t> turned;  ///< [vertex] nonzero on a side chain that turned: see turned_atoms()
 };
 
 /// The metrics at one distance outside the surfaces.

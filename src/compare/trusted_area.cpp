@@ -8,6 +8,7 @@
 
 #include "base/formatted.h"
 #include "base/not_a_number.h"
+#include "base/residue_label.h"
 #include "compare/result.h"
 
 namespace espdiff {
@@ -146,6 +147,39 @@ TrustedArea sum_trusted(const MappedSurface& s, const std::vector<float>& outsid
   for (double& share : sums.by_why) share = source > 0 ? share / source : kNaN;
   sums.source = sums.by_why[code(Why::kTrusted)];
   sums.target = matched > 0 ? (1 - unmatched_target) * trusted / matched : kNaN;
+  return sums;
+}
+
+TurnedArea turned_area(const MappedSurface& s, const std::vector<float>& outside, const Molecule& source) {
+  double trusted = 0, turned = 0, rest = 0, difference = 0;
+  std::vector<std::pair<double, std::size_t>> by_residue(source.residues.size());
+  for (std::size_t r = 0; r < by_residue.size(); ++r) by_residue[r] = {0, r};
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    if (s.why[t] != code(Why::kTrusted) || (!outside.empty() && outside[t] != 0)) continue;
+    const Triangle& corners = s.triangles[t];
+    const double before = area_of_triangle(s.source_positions, corners);
+    trusted += before;
+    const auto is_turned = [&](std::uint32_t v) { return s.turned[v] != 0; };
+    if (!s.turned.empty() && std::count_if(corners.begin(), corners.end(), is_turned) >= 2) {
+      turned += before;
+      for (const std::uint32_t v : corners) {
+        if (s.turned[v] != 0 && s.residue[v] >= 0) by_residue[static_cast<std::size_t>(s.residue[v])].first += before;
+      }
+      continue;
+    }
+    if (s.potential_source.empty()) continue;
+    const double after = area_of_triangle(s.positions, corners);  // the weight of the metrics
+    rest += after;
+    for (const std::uint32_t v : corners)
+      difference += after / 3 *
+                    std::fabs(static_cast<double>(s.potential_target[v]) - static_cast<double>(s.potential_source[v]));
+  }
+  std::stable_sort(by_residue.begin(), by_residue.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  TurnedArea sums{trusted > 0 ? turned / trusted : kNaN, rest > 0 ? difference / rest : kNaN, {}};
+  for (const auto& [area, r] : by_residue) {
+    if (area > 0) sums.side_chains.push_back(residue_label(source.residues[r]));
+  }
   return sums;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/message.h"
+#include "base/not_a_number.h"
 #include "base/types.h"
 
 namespace espdiff {
@@ -51,6 +52,14 @@ struct TrustedArea {
   double share() const { return source < target || source != source ? source : target; }
 };
 
+/// Trusted area on side chains that turned about their bonds (turned_side_chains.h). There the mapping finds the
+/// residue, but often another of its faces, so that a potential is compared with that beside it.
+struct TurnedArea {
+  double of_trusted = kNaN;                ///< its share of the trusted area of the source; NaN without any
+  double mean_abs_difference = kNaN;       ///< over the rest of the trusted area; NaN without potentials or rest
+  std::vector<std::string> side_chains{};  ///< "LYS 118 of chain A", that with the largest such area first
+};
+
 /// [triangle] Why, as far as the mapping shows it: all but kDisagrees and kNoPotential.
 /// @param surface   with slip (may be empty) and residues
 /// @param target_of [source residue] from paired_residues(); where no residue pairs, residues are not judged
@@ -68,6 +77,9 @@ std::vector<float> untrusted_triangles(const MappedSurface& surface);
 /// @param outside          [triangle] nonzero where it does not belong to the part; empty for the whole
 /// @param unmatched_target of the certificate: the share of the target's area that nothing was mapped to
 TrustedArea sum_trusted(const MappedSurface& surface, const std::vector<float>& outside, double unmatched_target);
+
+/// @param outside [triangle] nonzero where it does not belong to the part; empty for the whole
+TurnedArea turned_area(const MappedSurface& surface, const std::vector<float>& outside, const Molecule& source);
 
 /// The parts that are not trusted, by residues, largest first: "GLY 47 to SER 51 of chain A (230 A^2): slipped". At
 /// most six are named. @param rows the residues to look at

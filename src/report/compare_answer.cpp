@@ -56,6 +56,7 @@ void print_brief_part(std::ostream& out, const std::string& title, const Json& j
   const Metric& mean = *find_metric_or_null(whole.has_potential() ? "mean_abs_difference" : "mean_displacement_A");
   const Metric& signed_mean = *find_metric_or_null("mean_signed_difference");
   std::string text = part.text("/certificate/verdict") + "; " + counted(part.count("/n_residues"), "residue");
+  if (const std::string turned = turned_share_in_words(part); !turned.empty()) text += "; " + turned + " turned";
   if (whole.has_potential()) text = "signed " + formatted(signed_mean, part.value_of(signed_mean)) + "; " + text;
   print_brief_number(out, title, number_with_unit(mean, part.value_of(mean), whole.text("/potential_unit")), text);
   for (const std::string& reason : part.texts("/certificate/reasons")) print_item(out, reason, 4);
@@ -114,6 +115,7 @@ void print_basis(std::ostream& out, const Record& record) {
     parts += (parts.empty() ? "" : "; ") + part;
   const double trusted = std::min(record.number("/certificate/trusted_area_fraction/source"),
                                   record.number("/certificate/trusted_area_fraction/target"));
+  line("Turned", turned_in_words(record));
   if (record.flag("/certificate/trustworthy") && trusted < kWholeShare) line("Not trusted", parts);
 }
 

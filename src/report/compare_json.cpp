@@ -98,6 +98,7 @@ void add_verdict(Json& json, const Certificate& c, const OptionSpelling& spellin
   json["converged"] = c.converged;
   json["verdict"] = verdict_of(c);
   json["untrusted_parts"] = c.untrusted_parts;
+  json["turned_side_chains"]["residues"] = c.turned.side_chains;
   json["trustworthy"] = c.trustworthy;
   json["reasons"] = Json::array();
   for (const Message& reason : c.reasons) json["reasons"].push_back(reason.spelled(spelling));

@@ -55,6 +55,10 @@ double of_slip(const CompareResult& result) {
 
 double trusted_of_source(const CompareResult& result) { return result.certificate.trusted.source; }
 double trusted_of_target(const CompareResult& result) { return result.certificate.trusted.target; }
+double turned_of_trusted(const CompareResult& result) { return result.certificate.turned.of_trusted; }
+double difference_without_turned(const CompareResult& result) {
+  return result.has_potential ? result.certificate.turned.mean_abs_difference : kNaN;
+}
 template <Why Reason>
 double not_trusted(const CompareResult& result) {
   return result.certificate.trusted.by_why[static_cast<std::size_t>(Reason)];
@@ -182,6 +186,12 @@ std::vector<Metric> make_metrics() {
       {"untrusted_no_potential", "Not trusted, without a potential", S::kCertificate, U::kFraction, kNowhere,
        "Share of the source's surface outside the maps", not_trusted<Why::kNoPotential>,
        "/certificate/not_trusted/no_potential", "  or for its potential", "missing"},
+      {"turned_area_fraction", "Trusted area on turned side chains", S::kCertificate, U::kFraction, kBoth,
+       "Share of the source's trusted area on side chains that turned: there the residue is right, often not its face",
+       turned_of_trusted, "/certificate/turned_side_chains/of_trusted_area", "On turned side chains", "area"},
+      {"difference_without_turned", "Difference without turned side chains", S::kCertificate, U::kPotential, kNowhere,
+       "Mean absolute difference over the trusted area that is on no turned side chain", difference_without_turned,
+       "/certificate/turned_side_chains/mean_abs_difference_without", "On turned side chains", "without"},
       {"corrupt_area_fraction", "Corrupt area", S::kCertificate, U::kFraction, kBoth | kRemovable,
        "Share of the mapped area that does not lie on the target's surface; the morph removes it",
        of_certificate<&C::corrupt_area_fraction>, "/certificate/corrupt_area_fraction"},

@@ -1,9 +1,13 @@
 // record_words.cpp: what a record says, in words.
 #include "report/record_words.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "align/chain_motions.h"
 #include "align/compared_chains.h"
 #include "base/formatted.h"
+#include "base/not_a_number.h"
 #include "report/metrics.h"
 #include "report/record.h"
 #include "report/text_lines.h"
@@ -66,6 +70,27 @@ std::string whole_surface_in_words(const Record& record) {
 std::string trusted_in_words(const Record& record) {
   return share_of(record.number("/certificate/trusted_area_fraction/source")) + " of the source's surface and " +
          share_of(record.number("/certificate/trusted_area_fraction/target")) + " of the target's";
+}
+
+std::string turned_share_in_words(const Record& record) {
+  constexpr double kLeastNamedShare = 0.01;
+  const double share = record.number("/certificate/turned_side_chains/of_trusted_area");
+  return share >= kLeastNamedShare ? share_of(share) : "";
+}
+
+std::string turned_in_words(const Record& record) {
+  const std::string share = turned_share_in_words(record);
+  if (share.empty()) return "";
+  constexpr std::size_t kMostNamed = 3;
+  const std::vector<std::string> names = record.texts("/certificate/turned_side_chains/residues");
+  std::string named;
+  for (std::size_t k = 0; k < std::min(names.size(), kMostNamed); ++k) named += (k > 0 ? ", " : "") + names[k];
+  if (names.size() > kMostNamed) named += " and " + std::to_string(names.size() - kMostNamed) + " more";
+  const Metric& without = *find_metric_or_null("difference_without_turned");
+  const double rest = record.has_potential() ? record.value_of(without) : kNaN;
+  return share + " of the trusted area" +
+         (std::isfinite(rest) ? " (without it " + formatted(without, rest) + " " + record.potential_unit() + ")" : "") +
+         ": the residue is right, often not its face: " + named;
 }
 
 std::string unknown_signs(const Record& record) {

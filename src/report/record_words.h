@@ -20,6 +20,10 @@ std::string potential_in_words(const Record& record);
 std::string whole_surface_in_words(const Record& record);
 /// "94.2 % of the source's surface and 93.6 % of the target's"
 std::string trusted_in_words(const Record& record);
+/// "13.9 %", the share of the trusted area on side chains that turned; empty below 1 %.
+std::string turned_share_in_words(const Record& record);
+/// The same with the difference without it, and the side chains' names.
+std::string turned_in_words(const Record& record);
 /// "; the sign of the difference is not known (region): ..." for readings whose interval spans zero; otherwise empty.
 std::string unknown_signs(const Record& record);
 /// The sentences on the causes of a reading, an entry of the record's causes; the last one is the check of their sum.

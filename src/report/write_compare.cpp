@@ -83,6 +83,7 @@ SurfaceArrays::SurfaceArrays(const Molecule& source, const CompareResult& result
                        {"residue_number", derived.residue_number},
                        {"residue_index", s.residue},
                        {"target_residue_index", s.target_residue}};
+  if (!s.turned.empty()) file.point_arrays.emplace_back("turned", s.turned);
   file.active_normals = "normal";
   file.active_scalars = "displacement";
   if (result.has_potential) {

@@ -35,6 +35,7 @@ constexpr struct {
                       {"certificate/reasons", kWords},
                       {"certificate/not_checked", kWords},
                       {"certificate/untrusted_parts", kWords},
+                      {"certificate/turned_side_chains/residues", kWords},
                       {"whole_surface", "an estimate from the residues' own surfaces"},
                       {"certificate/zero_by_construction", kWords},
                       {"certificate/round_trip", "the mapping back is in no file"},

@@ -68,6 +68,7 @@ MappedFile::MappedFile(const std::string& path) {
   slip = of_points("slip");
   residue = of_points("residue_index");
   target_residue = of_points("target_residue_index");
+  turned = of_points("turned");
   check_near(path, source_positions);
   check_near(path, content.positions);
   check_residues(path, residue, "residue_index");

@@ -30,6 +30,7 @@ struct MappedFile {
   std::vector<double> target_residue;                      ///< [vertex] index where it is mapped to, -1 for none
   std::vector<bool> is_matched, is_valid;                  ///< [triangle] matched; and not corrupt
   std::vector<double> why;                                 ///< [triangle] 0 where it is trusted
+  std::vector<double> turned;                              ///< [vertex] on a side chain that turned
   std::vector<bool> is_trusted;                            ///< [triangle]
   std::vector<std::pair<std::string, std::string>> texts;  ///< of the whole file: name, text
   std::vector<std::string> array_names;                    ///< all, also of arrays that are not known here

@@ -72,6 +72,26 @@ void add_trusted_shares(const MappedFile& file, const ResultRecord& record, Line
     lines.add(std::string("certificate/not_trusted/") + kReasons[k], by_reason[k] / all, 1e-5);
 }
 
+/// The share of the trusted area on side chains that turned, and the mean difference over the rest of it.
+void add_turned_area(const MappedFile& file, Lines& lines) {
+  double trusted = 0, turned = 0, rest = 0, difference = 0;
+  for (std::size_t t = 0; t < file.triangles.size(); ++t) {
+    if (!file.is_trusted[t]) continue;
+    const Triangle& corners = file.triangles[t];
+    trusted += file.source_area(t);
+    if (std::count_if(corners.begin(), corners.end(), [&](std::uint32_t v) { return file.turned[v] != 0; }) >= 2) {
+      turned += file.source_area(t);
+      continue;
+    }
+    if (file.potential_source.empty()) continue;
+    rest += file.area(t);
+    for (const std::uint32_t v : corners)
+      difference += file.area(t) / 3 * std::fabs(file.potential_target[v] - file.potential_source[v]);
+  }
+  lines.add("certificate/turned_side_chains/of_trusted_area", turned / trusted, 1e-5);
+  lines.add("certificate/turned_side_chains/mean_abs_difference_without", difference / rest, 1e-5 * difference / rest);
+}
+
 /// Mean distance of the matched vertices from the mean of their neighbours, where triangles surround them: each edge
 /// from there belongs to two.
 double irregularity(const MappedFile& file) {
@@ -207,6 +227,7 @@ double correlation(const CsvTable& table, int area, int weight, int own, int map
 void add_mapped_lines(const MappedFile& file, const ResultRecord& record, Lines& lines) {
   add_areas(file, lines);
   add_trusted_shares(file, record, lines);
+  add_turned_area(file, lines);
   lines.add("certificate/irregularity_A", irregularity(file), 1e-4);
   add_metrics(file, file.is_trusted, "", "area_A2/trusted", lines);
   add_slip(file, lines);

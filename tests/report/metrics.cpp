@@ -29,6 +29,7 @@ CompareResult full_result() {
   result.certificate.round_trip = RoundTrip{0.1, 0.2, 0.3, 0.04};
   result.certificate.slip = SlipSummary{0.5, 0.3, 1.5, 4, 0.04, 0.02, 0.01};
   result.certificate.residues = ResidueCheck{0.95, 0.1, 2, 30};
+  result.certificate.turned = {0.13, 0.4, {"LYS 118 of chain A"}};
   result.residues = {{{6, 1, -1, 2, 1, 0.5}, 0, 1, 2}, {{4, 2, 2, 0, 2, 0}, 1, 1.5, 3}};
   return result;
 }
