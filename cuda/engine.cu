@@ -34,6 +34,7 @@
 #include "cuda/surface/density.h"
 #include "cuda/surface/density_at_points.h"
 #include "cuda/surface/isosurface.h"
+#include "cuda/surface/level_set_curvature.h"
 #include "cuda/surface/level_set_normals.h"
 #include "cuda/surface/project.h"
 #include "cuda/surface/sample.h"
@@ -217,6 +218,13 @@ class BackEndEngine : public Engine {
     });
   }
 
+  std::vector<float> level_set_curvature(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue) override {
+    return run([&] {
+      return to_host(
+          ESPDIFF_BACKEND::level_set_curvature(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms), isovalue));
+    });
+  }
+
   FieldPtr density_field(const GridPtr& density, float isovalue) override {
     return run([&] { return ESPDIFF_BACKEND::density_field(unwrap<DensityGrid>(density), isovalue); });
   }
@@ -276,6 +284,12 @@ class BackEndEngine : public Engine {
 
   ScalarsPtr sample(const GridPtr& map, const MeshPtr& mesh) override {
     return run([&] { return ESPDIFF_BACKEND::sample(unwrap<MapGrid>(map), unwrap<SurfaceMesh>(mesh)); });
+  }
+
+  std::vector<Vec3f> sample_gradient(const GridPtr& map, const MeshPtr& mesh) override {
+    return run([&] {
+      return host_vectors(ESPDIFF_BACKEND::sample_gradient(unwrap<MapGrid>(map), unwrap<SurfaceMesh>(mesh)));
+    });
   }
 
   GridPtr resample(const GridPtr& map, const Lattice& lattice) override {

@@ -164,6 +164,22 @@ ESPDIFF_INLINE float potential_at(const MapView& map, const double (&c)[3]) {
   return static_cast<float>(static_cast<double>(smooth) + map.sums.direct(parts) - map.zero);
 }
 
+/// The slope along one lattice axis, per lattice step. Between points of a linear map: central differences over two
+/// steps, which are the interpolated central differences at the points. Otherwise the map is smooth, and the difference
+/// of fourth order over a tenth of an Angstrom.
+ESPDIFF_INLINE double slope_along(const MapView& map, const double (&c)[3], int axis, double small_step) {
+  const auto at = [&](double shift) ESPDIFF_INLINE_LAMBDA {
+    double moved[3] = {c[0], c[1], c[2]};
+    moved[axis] += shift;
+    return static_cast<double>(potential_at(map, moved));
+  };
+  if (map.spline_order == 0 && map.sums.charges == nullptr) return 0.5 * (at(1) - at(-1));
+  const double near = at(small_step) - at(-small_step), far = at(2 * small_step) - at(-2 * small_step);
+  return (8 * near - far) / (12 * small_step);
+}
+
+constexpr double kSmoothStep_A = 0.1;
+
 }  // namespace
 
 std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh) {
@@ -178,6 +194,29 @@ std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh) {
     out[v] = potential_at(view, c);
   });
   return result;
+}
+
+Buffer<Vec4f> sample_gradient(const MapGrid& map, const SurfaceMesh& mesh) {
+  Buffer<Vec4f> gradients(mesh.n_vertices());
+  const MapView view = view_of(map);
+  Vec3d small_step;  // in lattice coordinates, which are Angstrom where a map has no points
+  for (int axis = 0; axis < 3; ++axis) {
+    const double* const row = map.to_index + std::ptrdiff_t{4} * axis;
+    small_step[axis] = kSmoothStep_A * std::sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
+  }
+  const Vec4f* const x = raw(mesh.positions);
+  Vec4f* const out = raw(gradients);
+  for_each_index(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
+    const Vec3d p = static_cast<Vec3d>(x[v].xyz());
+    const double c[3] = {view.coordinate(0, p), view.coordinate(1, p), view.coordinate(2, p)};
+    Vec3d gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double* const row = view.to_index + std::ptrdiff_t{4} * axis;
+      gradient += slope_along(view, c, axis, small_step[axis]) * Vec3d{row[0], row[1], row[2]};
+    }
+    out[v] = make_vec4(static_cast<Vec3f>(gradient), 0.0F);
+  });
+  return gradients;
 }
 
 std::shared_ptr<MapGrid> resample(const MapGrid& map, const Lattice& lattice) {

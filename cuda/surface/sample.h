@@ -39,6 +39,8 @@ std::shared_ptr<MapGrid> make_map(const Grid& map, const RigidTransform& to_map)
 
 /// [vertex] samples, by linear interpolation or splines as the map says; NaN outside a map that is not periodic.
 std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh);
+/// [vertex] gradients in the common frame; see Engine::sample_gradient().
+Buffer<Vec4f> sample_gradient(const MapGrid& map, const SurfaceMesh& mesh);
 /// Samples at the points of a lattice in the common frame.
 std::shared_ptr<MapGrid> resample(const MapGrid& map, const Lattice& lattice);
 /// Places in lattice coordinates with weights: what a reading of a map consists of.

@@ -37,6 +37,7 @@ class Options(TypedDict, total=False):
     side_chains: int
     side_chain_seed: int
     fields: Dict[str, Any]
+    patches_of: Union[str, List[str]]
     offset: str
     temperature: float
     trust_maps: bool

@@ -191,6 +191,11 @@ class Comparison(EngineResult):
         return self.to_dict()["fixed_patches"]
 
     @property
+    def field_patches(self) -> list:
+        """The patches of both states that `patches_of=` asked for: a dict for each field, as in OUT.json."""
+        return self.to_dict()["field_patches"]
+
+    @property
     def causes(self) -> list:
         """Which charges make the difference: a dict for each reading that `causes=` named, as in OUT.json."""
         return self.to_dict()["causes"]

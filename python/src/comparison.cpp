@@ -97,7 +97,7 @@ std::string table(const Comparison& c) {
 std::vector<std::string> save(const Comparison& c, const std::string& prefix) {
   std::vector<std::string> files{prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"};
   for (const KeptFile& file : c.kept) files.push_back(prefix + file.ending);
-  for (const std::string& ending : cause_endings(c.options)) files.push_back(prefix + ending);
+  for (const std::string& ending : further_endings(c.options)) files.push_back(prefix + ending);
   std::vector<std::string> inputs;
   for (const InputFile& input : c.provenance.inputs) inputs.push_back(input.path);
   check_outputs(inputs, files);

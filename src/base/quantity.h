@@ -1,6 +1,7 @@
 // quantity.h: a quantity that lives on a surface: its name, its unit, and whether its sign means something.
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace espdiff {
@@ -17,6 +18,12 @@ struct Quantity {
 struct FieldRequest {
   std::string name;  ///< unique; letters, digits, `_`, `-` and `.`
   std::string what;  ///< KIND or KIND:ARGUMENT
+};
+
+/// A field whose patches are asked for: connected areas above one threshold, below another, or both.
+struct PatchesRequest {
+  std::string field;  ///< "potential", or the name of a FieldRequest
+  std::optional<double> above, below;
 };
 
 }  // namespace espdiff

@@ -84,17 +84,20 @@ int run(int argc, char** argv) {
   espdiff::cli::set_help(app, {"",
                                {"espdiff wild.pdb mutant.pdb", "espdiff render wild_mutant -o difference.png"},
                                "merge plot surface potential verify completion man"});
-  std::vector<espdiff::cli::Verb> verbs = {
-      espdiff::cli::add_compare(app),   espdiff::cli::add_trajectory(app), espdiff::cli::add_matrix(app),
+  std::vector<espdiff::cli::Verb> verbs = {espdiff::cli::add_compare(app),    espdiff::cli::add_trajectory(app),
+                                           espdiff::cli::add_matrix(app),
 
 #ifdef ESPDIFF_HAVE_HDF5
-      espdiff::cli::add_ensemble(app),
+                                           espdiff::cli::add_ensemble(app),
 #endif
-      espdiff::cli::add_merge(app),     espdiff::cli::add_plot(app),       espdiff::cli::add_surface(app),
-      espdiff::cli::add_potential(app), espdiff::cli::add_prepare(app),    espdiff::cli::add_render(app),
-      espdiff::cli::add_show(app),      espdiff::cli::add_report(app),     espdiff::cli::add_export(app),
-      espdiff::cli::add_fields(app),    espdiff::cli::add_view(app),       espdiff::cli::add_verify(app),
-      espdiff::cli::add_doctor(app),    espdiff::cli::add_completion(app), espdiff::cli::add_man(app)};
+                                           espdiff::cli::add_merge(app),      espdiff::cli::add_plot(app),
+                                           espdiff::cli::add_surface(app),    espdiff::cli::add_potential(app),
+                                           espdiff::cli::add_prepare(app),    espdiff::cli::add_render(app),
+                                           espdiff::cli::add_show(app),       espdiff::cli::add_report(app),
+                                           espdiff::cli::add_export(app),     espdiff::cli::add_complementarity(app),
+                                           espdiff::cli::add_fields(app),     espdiff::cli::add_view(app),
+                                           espdiff::cli::add_verify(app),     espdiff::cli::add_doctor(app),
+                                           espdiff::cli::add_completion(app), espdiff::cli::add_man(app)};
   try {
     std::vector<std::string> words = espdiff::cli::understood({argv + std::min(argc, 1), argv + argc}, app);
     std::reverse(words.begin(), words.end());  // as CLI11 takes a vector

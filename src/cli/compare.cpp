@@ -86,7 +86,7 @@ void check_files(const CompareArguments& a, const CompareOptions& options, const
   for (const FieldRequest& field : options.fields) {
     for (const std::string& path : files_of(field)) inputs.push_back(path);
   }
-  for (const std::string& ending : cause_endings(options)) outputs.push_back(a.output + ending);
+  for (const std::string& ending : further_endings(options)) outputs.push_back(a.output + ending);
   for (const KeptFile& file : kept) outputs.push_back(a.output + file.ending);
   check_outputs(inputs, outputs);
 }
@@ -182,7 +182,7 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   check_files(a, options, {});
   // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
-  for (const std::string& ending : cause_endings(options)) AtomicFile probe(a.output + ending);
+  for (const std::string& ending : further_endings(options)) AtomicFile probe(a.output + ending);
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
   if (!a.overwrite) refuse_existing(a.output, a.picture);
   if (!a.picture.empty()) require_drawing(a.picture);

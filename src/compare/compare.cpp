@@ -282,6 +282,7 @@ struct Series::Steps {
                    {source_fields, *source.molecule, surface.atoms, step.frame.from_source, source_map.map},
                    {target_fields, *target.molecule, target_surface.atoms, step.frame.from_target, target_map}, options,
                    parts, step);
+    find_patches_of_fields(options, result);
     describe_chains(target, target_of, result);
     Certificate& certificate = result.certificate;
     certificate.trusted = sum_trusted(result.surface, {}, certificate.unmatched_target);
@@ -408,6 +409,10 @@ struct Series::Steps {
     StageClock clock(time_ms);
     check_maps(source, target);  // before any work
     check_causes(options, source, target);
+    if (!has_map(source)) {
+      refuse_fields_of_potential(fields);
+      refuse_patches_of_potential(options);
+    }
     const StateFields target_fields = make_state_fields(fields, *target.molecule, {FieldSide::kTarget, target.fields});
     progress.report("align", 0.0);
     const CommonFrame frame = align(*source.molecule, *target.molecule, options, result);

@@ -65,6 +65,15 @@ StateFields make_state_fields(const std::vector<Field>& fields, const Molecule& 
   return made;
 }
 
+void refuse_fields_of_potential(const std::vector<Field>& fields) {
+  for (const Field& field : fields) {
+    if (!field.of_potential) continue;
+    throw InputError(option("field", field.quantity.name) + ": '" + field.quantity.label +
+                     "' is read from the potential, which these states lack; give charges or maps, or leave the field "
+                     "out");
+  }
+}
+
 void compare_fields(Engine& engine, const std::vector<Field>& fields, const FieldsOfSide& source,
                     const FieldsOfSide& target, const CompareOptions& options, const std::vector<MeasuredPart>& parts,
                     MappedStep& step) {
@@ -88,6 +97,8 @@ void compare_fields(Engine& engine, const std::vector<Field>& fields, const Fiel
   for (std::size_t f = 0; f < fields.size(); ++f) {
     FieldResult field;
     field.quantity = fields[f].quantity;
+    if (fields[f].of_potential)
+      field.quantity.unit = result.unit == PotentialUnit::kUnknown ? "" : to_string(result.unit) + "/A";
     field.what = fields[f].what;
     field.reference = fields[f].reference;
     field.files = fields[f].files;

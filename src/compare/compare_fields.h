@@ -18,6 +18,9 @@ using StateFields = std::vector<StateField>;
 /// @throws InputError naming the field
 StateFields make_state_fields(const std::vector<Field>& fields, const Molecule& molecule, const FieldSide& side);
 
+/// @throws InputError naming the first field that is made of the potential
+void refuse_fields_of_potential(const std::vector<Field>& fields);
+
 /// One side's fields, and where they are read.
 struct FieldsOfSide {
   const StateFields& fields;
@@ -32,5 +35,12 @@ struct FieldsOfSide {
 void compare_fields(Engine& engine, const std::vector<Field>& fields, const FieldsOfSide& source,
                     const FieldsOfSide& target, const CompareOptions& options, const std::vector<MeasuredPart>& parts,
                     MappedStep& step);
+
+/// @throws InputError naming a request for patches of the potential
+void refuse_patches_of_potential(const CompareOptions& options);
+
+/// Finds the patches that the options ask for, of the finished fields and potentials. A request that finds none in
+/// either state becomes a warning with the values that there are.
+void find_patches_of_fields(const CompareOptions& options, CompareResult& result);
 
 }  // namespace espdiff

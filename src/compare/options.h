@@ -57,8 +57,9 @@ struct CompareOptions {
   /// How far outside the surfaces the potentials are read, each along its own surface's normal, Angstrom. The first one
   /// is what vertices and residues have; metrics are computed for all.
   std::vector<double> offsets_A{0};
-  std::vector<FieldRequest> fields;  ///< compared besides the potential
-  std::vector<std::string> causes;   ///< readings whose causes are wanted; see causes/reading.h
+  std::vector<FieldRequest> fields;        ///< compared besides the potential
+  std::vector<PatchesRequest> patches_of;  ///< fields whose patches in each state are found
+  std::vector<std::string> causes;         ///< readings whose causes are wanted; see causes/reading.h
   /// Share of the source's surface, and of the target's, that has to be trusted; below it a result is not trustworthy.
   double required_share = 0.5;
   bool scan = false;    ///< for each of them, how a change of each residue's charges would shift it

@@ -19,6 +19,7 @@
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/morph_stage.h"
+#include "field/field_patches.h"
 #include "field/field_result.h"
 
 namespace espdiff {
@@ -203,7 +204,8 @@ struct CompareResult {
   std::size_t n_vertices_subdivided = 0;  ///< added by deform with `subdivide`
   MorphReport morph_report;
   std::vector<ResidueRow> residues;
-  std::vector<FieldResult> fields;  ///< besides the potential, in the order of the request
+  std::vector<FieldResult> fields;          ///< besides the potential, in the order of the request
+  std::vector<FieldPatches> field_patches;  ///< in the order of the request
   MappedSurface surface;
   UncoveredSurface uncovered;                           ///< of the target
   std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order; "total" last

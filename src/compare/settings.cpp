@@ -15,6 +15,7 @@
 #include "compare/options.h"
 #include "compare/readings.h"
 #include "field/field_kinds.h"
+#include "field/field_patches.h"
 
 namespace espdiff {
 namespace {
@@ -284,6 +285,31 @@ Setting field_setting() {
   return row;
 }
 
+/// A list of fields with thresholds; setting it again adds to it.
+Setting patches_of_setting() {
+  Setting row{
+      "patches-of",
+      "Fields",
+      SettingKind::kText,
+      {},
+      "Find the connected areas of each state beyond a threshold of a field, and what became of each in the other "
+      "state: FIELD>T, FIELD<T or FIELD>T<U (quoted in a shell); potential alone means potential>1<-1. Several may be "
+      "given",
+      false,
+      nullptr,
+      nullptr};
+  row.set = [](CompareOptions& o, const std::string& text) {
+    for (PatchesRequest& request : parse_patches_of(text)) o.patches_of.push_back(std::move(request));
+  };
+  row.get = [](const CompareOptions& o) {
+    std::string text;
+    for (const PatchesRequest& request : o.patches_of) text += (text.empty() ? "" : ",") + to_string(request);
+    return text;
+  };
+  row.is_list = true;
+  return row;
+}
+
 /// The settings whose key in OUT.json ends with a unit.
 constexpr std::pair<const char*, const char*> kUnits[] = {{"grid-spacing", "A"},       {"max-step", "A"},
                                                           {"distance-threshold", "A"}, {"gvf-weight", "A2"},
@@ -333,6 +359,7 @@ std::vector<Setting> make_settings() {
   all.push_back(domains);
   add_input_settings(all);
   all.push_back(field_setting());
+  all.push_back(patches_of_setting());
   all.push_back(offset_setting());
   all.push_back(of_surface(number(
       "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
@@ -398,6 +425,12 @@ std::vector<std::pair<std::string, std::string>> setting_texts(const CompareOpti
 void refuse_fields(const CompareOptions& options, const std::string& what) {
   if (!options.fields.empty())
     throw InputError(option("field") + ": " + what + " has no fields besides the potential; leave the option out");
+  refuse_patches_of(options, what);
+}
+
+void refuse_patches_of(const CompareOptions& options, const std::string& what) {
+  if (!options.patches_of.empty())
+    throw InputError(option("patches-of") + ": " + what + " has no patches of one state; compare pairs by them");
 }
 
 const Setting& find_setting(const std::string& name) {
@@ -441,6 +474,7 @@ CompareOptions make_options(const std::vector<std::pair<std::string, std::string
   refuse_of_other_method(given, options.method);
   check_input_options(options.input);
   check_fields(options.fields, part_names(options.input));
+  check_patches_of(options.patches_of, options.fields);
   check_readings(options);
   return options;
 }

@@ -76,8 +76,12 @@ const std::vector<Setting>& settings();
 /// Every setting's value as text, by name.
 std::vector<std::pair<std::string, std::string>> setting_texts(const CompareOptions& options);
 
-/// @param what of a run that compares potentials alone: "a matrix"
-/// @throws InputError if the options name fields
+/// @param what of a run without patches of one state: "a matrix"
+/// @throws InputError if the options ask for them
+void refuse_patches_of(const CompareOptions& options, const std::string& what);
+
+/// @param what of a run that compares potentials alone: "an ensemble"
+/// @throws InputError if the options name fields, or patches of one state
 void refuse_fields(const CompareOptions& options, const std::string& what);
 
 /// @throws InputError if there is none of that name; for an old name the message gives the new one

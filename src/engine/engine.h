@@ -97,6 +97,12 @@ class Engine {
   /// the triangles' normals instead, as in download().
   virtual std::vector<Vec3f> level_set_normals(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue) = 0;
 
+  /// [vertex] mean curvature of the analytic isosurface, 1/Angstrom: half the divergence of the outward normal, 1/r on
+  /// a sphere, positive where the surface is convex. From the density's gradient and Hessian at the vertex (Goldman,
+  /// Comput. Aided Geom. Des. 22, 632 (2005), the formula for an implicit surface, with the sign of the outward
+  /// normal). NaN where the density differs from the isovalue by more than a tenth of it, or has no gradient.
+  virtual std::vector<float> level_set_curvature(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue) = 0;
+
   /// Density and gradient for deform().
   virtual FieldPtr density_field(const GridPtr& density, float isovalue) = 0;
   /// Signed distance to `surface` (positive inside) where its magnitude exceeds `threshold_A`, the density elsewhere
@@ -162,6 +168,10 @@ class Engine {
   /// [vertex] samples of a map, trilinear, or by splines if it was made with smooth_samples; NaN if the vertex lies
   /// outside the map. A periodic map has no outside.
   virtual ScalarsPtr sample(const GridPtr& map, const MeshPtr& mesh) = 0;
+  /// [vertex] gradient of a map in the common frame, per Angstrom. Of a map with points: central differences over two
+  /// lattice steps along each axis, interpolated as the map is. Of one that is smooth between its points, or has none:
+  /// differences of fourth order over 0.1 A. NaN outside the map and within a step of its border.
+  virtual std::vector<Vec3f> sample_gradient(const GridPtr& map, const MeshPtr& mesh) = 0;
   /// The map's samples on another lattice, given in the common frame; NaN outside the map.
   /// @throws InputError (axes that do not span space, no points)
   virtual GridPtr resample(const GridPtr& map, const Lattice& lattice) = 0;

@@ -40,6 +40,21 @@ FieldKind kind_of_atoms(Quantity quantity, std::string help, std::string referen
   return kind;
 }
 
+FieldKind kind_of_potential(Quantity quantity, std::string help, SurfaceReader reader) {
+  FieldKind kind{std::move(quantity), "", std::move(help), "the states' potentials", nullptr};
+  kind.field = [reader = std::move(reader)](const FieldKind& self, const std::string&) {
+    Field field{self.quantity, self.quantity.name, "", nullptr};
+    field.make = [reader](const Molecule&, FieldSide) {
+      StateField of_state;
+      of_state.on_surface = reader;
+      return of_state;
+    };
+    field.of_potential = true;
+    return field;
+  };
+  return kind;
+}
+
 bool is_hydrogen(const Atom& atom) { return atom.element == "H" || atom.element == "D"; }
 
 void give_to_hydrogens(const Molecule& molecule, std::vector<float>& values) {

@@ -52,6 +52,8 @@ struct Field {
   std::string reference;  ///< author, title, year of its values; empty for the user's own
   FieldMaker make;
   std::vector<FieldFile> files{};  ///< that all states share
+  /// Made of the potential: refused where there is none; its unit is the potential's per Angstrom.
+  bool of_potential = false;
 };
 
 /// A kind of field: a row of `espdiff fields`. Its file is field/kinds/NAME.cpp.
@@ -68,6 +70,9 @@ struct FieldKind {
 /// A kind without an argument whose values are those of atoms.
 FieldKind kind_of_atoms(Quantity quantity, std::string help, std::string reference,
                         std::function<std::vector<float>(const Molecule&)> values);
+
+/// A kind without an argument that is read from the state's potential.
+FieldKind kind_of_potential(Quantity quantity, std::string help, SurfaceReader reader);
 
 /// Gives each hydrogen without a value that of the nearest other atom of its residue that has one.
 void give_to_hydrogens(const Molecule& molecule, std::vector<float>& values);

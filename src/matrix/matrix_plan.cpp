@@ -38,6 +38,7 @@ MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants,
   if (variants.size() < 2 || variants.size() > kMaxVariants)
     throw InputError("a matrix of " + std::to_string(variants.size()) + " variant" + (variants.size() == 1 ? "" : "s") +
                      " was asked for; 2 to " + std::to_string(kMaxVariants) + " can be compared");
+  refuse_patches_of(options, "a matrix");
   MatrixPlan plan;
   plan.version = kVersion;
   plan.device = engine.back_end();

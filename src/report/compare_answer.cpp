@@ -6,6 +6,7 @@
 #include "base/formatted.h"
 #include "compare/result.h"
 #include "compare/trusted_area.h"
+#include "report/field_patches_report.h"
 #include "report/metrics.h"
 #include "report/record.h"
 #include "report/record_words.h"
@@ -82,6 +83,9 @@ void print_main_numbers(std::ostream& out, const Record& record) {
                            formatted("%.4g", field.number("/mean_signed_difference")) + ", correlation " +
                            formatted("%.3g", field.number("/correlation")));
   }
+  for (const Json& patches : record.at("/field_patches"))
+    print_wrapped(out, field_patches_in_words(Record(patches)), "Patches of " + Record(patches).text("/field"),
+                  kLabelWidth);
   if (record.has("/region")) print_brief_part(out, "Region", record.at("/region"), record);
   for (const auto& [name, patch] : record.at("/fixed_patches").items())
     print_brief_part(out, "Patch " + name, patch, record);

@@ -13,6 +13,7 @@
 #include "compare/settings.h"
 #include "report/causes_report.h"
 #include "report/field_json.h"
+#include "report/field_patches_report.h"
 #include "report/json_number.h"
 #include "report/metrics.h"
 #include "report/placement.h"
@@ -331,6 +332,7 @@ Json compare_json(const Molecule& source, const Molecule& target, const CompareR
   json["format_version"] = kFormatVersion;
   json["names"] = {{"source", source.name}, {"target", target.name}};
   add_results(json, source, result, spelling);
+  json["field_patches"] = field_patches_json(source, target, result);
   json["time_ms"] = Json::object();
   for (const auto& [stage, ms] : result.time_ms) json["time_ms"][stage] = json_number(ms);
   json["device"] = provenance.device;

@@ -7,6 +7,7 @@
 #include "compare/options.h"
 #include "compare/short_numbers.h"
 #include "compare/trusted_area.h"
+#include "report/field_patches_report.h"
 #include "report/metrics.h"
 #include "report/record.h"
 #include "report/record_words.h"
@@ -322,6 +323,10 @@ void print_table(std::ostream& out, const Json& json) {
   if (record.has("/region")) print_part(out, "Region", Record(record.at("/region")), record);
   for (const auto& [name, patch] : record.at("/fixed_patches").items())
     print_part(out, "Patch " + name, Record(patch), record);
+  for (const Json& patches : record.at("/field_patches")) {
+    out << "\nPatches of " << Record(patches).text("/field") << '\n';
+    print_item(out, field_patches_in_words(Record(patches)));
+  }
   print_causes(out, record);
   print_warnings(out, record);
   print_verdict(out, record);

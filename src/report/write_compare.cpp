@@ -23,6 +23,7 @@
 #include "io/write_vtp.h"
 #include "potential/computed_map.h"
 #include "report/causes_report.h"
+#include "report/field_patches_report.h"
 #include "report/metrics.h"
 #include "report/potential_json.h"
 #include "report/probed_causes.h"
@@ -106,6 +107,10 @@ SurfaceArrays::SurfaceArrays(const Molecule& source, const CompareResult& result
     file.texts.emplace_back(name + "_signed", field.quantity.is_signed ? "1" : "0");
     if (!field.quantity.unit.empty()) file.texts.emplace_back(name + "_unit", field.quantity.unit);
   }
+  for (const FieldPatches& patches : result.field_patches) {
+    file.point_arrays.emplace_back(patches.quantity.name + "_patch_source", patches.source_patch);
+    file.point_arrays.emplace_back(patches.quantity.name + "_patch_target", patches.target_patch);
+  }
   file.cell_arrays = {{"corrupt", s.corrupt},
                       {"no_counterpart", s.unmatched.empty() ? derived_->matched_everywhere : s.unmatched},
                       {"why", s.why}};
@@ -176,16 +181,32 @@ class FileSet {
   std::deque<AtomicFile> files_;
 };
 
-/// A file about causes.
-struct CauseFile {
+/// Both molecules and their comparison.
+struct Compared {
+  const Molecule& source;
+  const Molecule& target;
+  const CompareResult& result;
+};
+
+/// A table that an option asks for.
+struct FurtherFile {
   const char* ending;
   bool (*is_wanted)(const CompareOptions& options);
-  void (*write)(std::ostream& out, const Causes& causes, const std::string& unit);
+  void (*write)(std::ostream& out, const Compared& of);
 };
-constexpr CauseFile kCauseFiles[] = {
-    {".causes.csv", [](const CompareOptions& o) { return !o.causes.empty(); }, write_causes},
-    {".scan.csv", [](const CompareOptions& o) { return o.scan; }, write_scan},
-    {".side-chains.csv", [](const CompareOptions& o) { return o.side_chains > 0; }, write_side_chains}};
+
+template <void (*Write)(std::ostream&, const Causes&, const std::string&)>
+void write_of_causes(std::ostream& out, const Compared& of) {
+  if (of.result.causes != nullptr) Write(out, *of.result.causes, potential_unit_text(of.result));
+}
+
+constexpr FurtherFile kFurtherFiles[] = {
+    {".field_patches.csv", [](const CompareOptions& o) { return !o.patches_of.empty(); },
+     [](std::ostream& out, const Compared& of) { write_field_patches(out, of.source, of.target, of.result); }},
+    {".causes.csv", [](const CompareOptions& o) { return !o.causes.empty(); }, write_of_causes<write_causes>},
+    {".scan.csv", [](const CompareOptions& o) { return o.scan; }, write_of_causes<write_scan>},
+    {".side-chains.csv", [](const CompareOptions& o) { return o.side_chains > 0; },
+     write_of_causes<write_side_chains>}};
 
 void add_results(FileSet& files, const std::string& output_prefix, const Molecule& source, const Molecule& target,
                  const CompareResult& result, const CompareOptions& options, const Provenance& provenance) {
@@ -195,10 +216,8 @@ void add_results(FileSet& files, const std::string& output_prefix, const Molecul
                                      << '\n';
   write_vtp(files.add(output_prefix + ".vtp"), SurfaceArrays(source, result, provenance.version).file);
   write_residue_file(files.add(output_prefix + ".residues.csv"), source, result);
-  if (result.causes == nullptr) return;
-  for (const CauseFile& file : kCauseFiles) {
-    if (file.is_wanted(options))
-      file.write(files.add(output_prefix + file.ending), *result.causes, potential_unit_text(result));
+  for (const FurtherFile& file : kFurtherFiles) {
+    if (file.is_wanted(options)) file.write(files.add(output_prefix + file.ending), {source, target, result});
   }
 }
 
@@ -230,9 +249,9 @@ std::optional<InputFile> input_of(const Provenance& provenance, const std::strin
 
 }  // namespace
 
-std::vector<std::string> cause_endings(const CompareOptions& options) {
+std::vector<std::string> further_endings(const CompareOptions& options) {
   std::vector<std::string> endings;
-  for (const CauseFile& file : kCauseFiles) {
+  for (const FurtherFile& file : kFurtherFiles) {
     if (file.is_wanted(options)) endings.emplace_back(file.ending);
   }
   return endings;

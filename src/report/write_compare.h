@@ -19,9 +19,8 @@ struct CompareOptions;
 struct CompareResult;
 struct Provenance;
 
-/// Of the files that a comparison with causes writes besides: ".causes.csv", and with their options ".scan.csv" and
-/// ".side-chains.csv".
-std::vector<std::string> cause_endings(const CompareOptions& options);
+/// Of the tables that options ask for: ".causes.csv", ".scan.csv", ".side-chains.csv", ".field_patches.csv".
+std::vector<std::string> further_endings(const CompareOptions& options);
 
 /// A file written beside the results that is the input of a role from then on; the original input stays listed under
 /// ROLE_file.

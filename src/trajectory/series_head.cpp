@@ -44,6 +44,7 @@ std::string settings_in_words(const CompareOptions& options) {
 }  // namespace
 
 SeriesHead series_head(const SeriesDescription& run, const CompareOptions& options) {
+  refuse_patches_of(options, "a trajectory");
   SeriesHead head = {{"espdiff", kVersion}};
   if (run.files.empty()) {
     head.insert(head.end(), run.molecule.begin(), run.molecule.end());
