@@ -534,7 +534,12 @@ std::string formatted(const Metric& metric, double value) {
 
 Metrics counted_metrics(const CompareResult& result) {
   if (result.has_potential) return result.metrics;
-  Metrics counted{0, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, 0, 0, kNaN};
+  using M = Metrics;
+  Metrics counted;
+  for (double M::*const of_potentials :
+       {&M::mean_abs_difference, &M::rms_difference, &M::mean_signed_difference, &M::sign_change_area_fraction,
+        &M::hodgkin_index, &M::carbo_index, &M::correlation})
+    counted.*of_potentials = kNaN;
   for (const ResidueRow& row : result.residues) {
     if (!(row.area_A2 > 0)) continue;
     counted.area_A2 += row.area_A2;

@@ -53,12 +53,15 @@ ComputedMap own_map(const StatePotential& own, const LoadedState& state, double 
     surroundings.solute = state.molecule.positions;
     return {own.charges, surroundings, options};
   }
+  const bool is_in_water = state.everything.size() > 0 && potential_facts(state.everything, state.cell).has_solvent;
   const bool is_padded =
       std::any_of(own.given.begin(), own.given.end(), [](const auto& setting) { return setting.first == "pad"; });
-  const bool takes_water = own.method == PotentialMethod::kPme && !is_padded && state.everything.size() > 0;
-  if (takes_water && (options.cell || potential_facts(state.everything, state.cell).has_solvent))
+  if (own.method == PotentialMethod::kPme && !is_padded &&
+      (is_in_water || (options.cell && state.everything.size() > 0)))
     return {state.everything, {state.cell, {}, false}, options};
-  return {state.molecule, surroundings, options};
+  // Chosen because of the water, whose place it takes: see PotentialPlan.
+  const bool replaces_water = own.method == PotentialMethod::kPoissonBoltzmann && is_in_water && !own.because.empty();
+  return {replaces_water ? without_salt(state.molecule) : state.molecule, surroundings, options};
 }
 
 std::string map_role(const ComparedState& state) { return state.role == "structure" ? "map" : state.role + "_map"; }
