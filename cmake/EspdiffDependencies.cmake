@@ -61,16 +61,11 @@ if(NOT ESPDIFF_THRUST_INCLUDE)
 endif()
 espdiff_note("CPU back end: on (Thrust in ${ESPDIFF_THRUST_INCLUDE}, OpenMP ${OpenMP_CXX_VERSION})")
 
-# FFTW in both precisions: the PME potential on the CPU back end.
-if(NOT ESPDIFF_FFTW STREQUAL "OFF")
-  find_path(ESPDIFF_FFTW_INCLUDE fftw3.h)
-  find_library(ESPDIFF_FFTW_SINGLE fftw3f)
-  find_library(ESPDIFF_FFTW_DOUBLE fftw3)
+# One header: the PME potential on the CPU back end. gemmi's packages contain it.
+if(NOT ESPDIFF_POCKETFFT STREQUAL "OFF")
+  find_path(ESPDIFF_POCKETFFT_INCLUDE pocketfft_hdronly.h PATH_SUFFIXES gemmi/third_party)
 endif()
-if(ESPDIFF_FFTW_INCLUDE AND ESPDIFF_FFTW_SINGLE AND ESPDIFF_FFTW_DOUBLE)
-  set(fftw_found TRUE)
-endif()
-espdiff_resolve(ESPDIFF_FFTW "${fftw_found}" "PME potential on the CPU" "FFTW 3 was not found (Debian: libfftw3-dev)")
+espdiff_resolve(ESPDIFF_POCKETFFT "${ESPDIFF_POCKETFFT_INCLUDE}" "PME potential on the CPU" "pocketfft was not found (Debian: gemmi-dev)")
 
 if(NOT ESPDIFF_ZLIB STREQUAL "OFF")
   find_package(ZLIB QUIET)
@@ -100,7 +95,7 @@ espdiff_resolve(ESPDIFF_PAGES "${three_found}" "Pages for a browser" "three.js w
 
 if(NOT ESPDIFF_GEMMI STREQUAL "OFF")
   find_path(ESPDIFF_GEMMI_INCLUDE gemmi/cif.hpp)
-  find_path(ESPDIFF_PEGTL_INCLUDE tao/pegtl.hpp)  # gemmi's CIF reader includes it
+  find_path(ESPDIFF_PEGTL_INCLUDE tao/pegtl.hpp PATH_SUFFIXES gemmi/third_party)  # gemmi's CIF reader includes it
   # From 0.6 on, part of gemmi is a library. Its CMake package is of no use here: Debian's asks for its program too.
   find_library(ESPDIFF_GEMMI_LIBRARY gemmi_cpp)
 endif()

@@ -55,6 +55,26 @@ def material(name, alpha, attribute=None):
     return made
 
 
+def show_all(points):
+    """A camera that sees all points, and a light; the cube of Blender's empty scene would hide in the surface."""
+    cube = bpy.data.objects.get('Cube')
+    if cube and cube.type == 'MESH' and len(cube.data.vertices) == 8:
+        bpy.data.objects.remove(cube)
+    middle = [UNIT * (min(axis) + max(axis)) / 2 for axis in points]
+    radius = max(math.dist(middle, [UNIT * x for x in point]) for point in zip(*points))
+    camera = bpy.data.objects.new('espdiff camera', bpy.data.cameras.new('espdiff camera'))
+    distance = radius / math.sin(math.atan(0.5 * 9 / 16 * camera.data.sensor_width / camera.data.lens))
+    camera.location = (middle[0], middle[1] - distance, middle[2])
+    camera.rotation_euler = (math.pi / 2, 0, 0)
+    camera.data.clip_end = distance + 2 * radius
+    sun = bpy.data.objects.new('espdiff sun', bpy.data.lights.new('espdiff sun', 'SUN'))
+    sun.rotation_euler = (math.pi / 3, 0, math.pi / 6)
+    sun.data.energy = 3
+    for added in (camera, sun):
+        bpy.context.scene.collection.objects.link(added)
+    bpy.context.scene.camera = camera
+
+
 folder = os.path.dirname(os.path.abspath(__file__))
 columns, faces, counted = read_ply(os.path.join(folder, MESH))
 surface = add_mesh('difference', columns, [face for face, known in zip(faces, counted) if known])
@@ -63,3 +83,4 @@ surface['scale'] = SCALE['title']
 rest = [face for face, known in zip(faces, counted) if not known]
 if rest:
     add_mesh('not counted', columns, rest).data.materials.append(material('not counted', 0.4))
+show_all([columns[axis] for axis in 'xyz'])

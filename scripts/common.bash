@@ -36,3 +36,12 @@ our_files() {
   done
   find "${folders[@]}" -type f \( "${names[@]:1}" \) | sort
 }
+
+# write_small_pair A.pqr B.pqr: eight atoms whose places differ a little, to try an installed program.
+write_small_pair() {
+  local i
+  for i in 1 2 3 4 5 6 7 8; do
+    printf 'ATOM %d CA ALA A %d %d.0 0.%d 0.%d 0.5 2.0\n' "$i" "$i" $((3 * i)) $((7 * (i % 3) % 10)) $((4 * (i % 2))) >&3
+    printf 'ATOM %d CA ALA A %d %d.0 0.%d 0.%d 0.5 2.0\n' "$i" "$i" $((3 * i)) $((7 * (i % 3) % 10)) $((i % 4)) >&4
+  done 3>"$1" 4>"$2"
+}

@@ -24,8 +24,6 @@ in float slipFS;
 in float uncertaintyFS;
 flat in float residueIndexFS;
 in vec3 bordersFS;
-in vec3 startFS;                // on the source, and where it is drawn
-in vec3 placeFS;
 
 uniform sampler3D sourceMap;
 uniform sampler3D targetMap;
@@ -37,6 +35,7 @@ uniform float hatchPitch;     // pixels
 #include "colour_maps.glsl"
 #include "blinn_phong.glsl"
 
+const float tearEdge = -0.4;  // of bordersFS.x: inside a tear there is no surface
 const int kDifference = 0, kSource = 1, kTarget = 2, kSign = 3, kDisplacement = 4, kMagnitude = 5, kResidue = 6,
           kPlain = 7, kSlip = 8, kReadBack = 9;
 
@@ -89,14 +88,6 @@ bool onLine(float share, float pixels)
   return abs(share - 0.5) < 0.5 * pixels * fwidth(share);
 }
 
-/// Whether an unmatched triangle is drawn much larger than it is on the source: it spans a tear, where no surface is.
-bool spansTear()
-{
-  float drawn = length(cross(dFdx(placeFS), dFdy(placeFS)));
-  float source = length(cross(dFdx(startFS), dFdy(startFS)));
-  return drawn > 3.0 * source;  // areas
-}
-
 void main()
 {
   //VTK::Depth::Impl
@@ -105,7 +96,7 @@ void main()
   bool atBorder = cuts && onLine(bordersFS.x, 0.2 * hatchPitch);
   bool atOutline = outlines && onLine(bordersFS.y, 0.4 * hatchPitch);
   if (cuts && part == 0 && bordersFS.x < 0.5) discard;
-  if (cuts && part == 1 && (bordersFS.x >= 0.5 || spansTear())) discard;
+  if (cuts && part == 1 && (bordersFS.x >= 0.5 || bordersFS.x < tearEdge)) discard;
   vec3 colour = part == 1                    ? (onStripe() ? noValueColour : vec3(0.93))
                 : marks && bordersFS.z < 0.5 ? noValueColour
                                              : surfaceColour();

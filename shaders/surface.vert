@@ -27,8 +27,6 @@ out float slipFS;
 out float uncertaintyFS;
 flat out float residueIndexFS;
 out vec3 bordersFS;
-out vec3 startFS;
-out vec3 placeFS;
 
 void main()
 {
@@ -44,6 +42,4 @@ void main()
   uncertaintyFS = uncertainty;
   residueIndexFS = residueIndex;
   bordersFS = borders;
-  startFS = startMC;
-  placeFS = placeMC.xyz;
 }

@@ -278,7 +278,28 @@ namespace eval ::espdiff {
             if {$n_options > 0 && [string match {-[a-z]*} $argument]} { wrong_arguments $name }
         }
         set call [concat [list espdiff $name] $args]
-        [dict get $description run] [parse_options $name [lrange $args $n end]] {*}$positional
+        [dict get $description run] [with_given_fields [parse_options $name [lrange $args $n end]]] {*}$positional
+    }
+
+    # By command: the fields of VMD's atoms that its molecules are to bring, such as user.
+    variable given_fields {}
+
+    # Options whose fields are complete: a word that is no kind but a keyword of VMD's selections is a field of VMD's
+    # atoms, `user` is given:user.
+    proc with_given_fields {options} {
+        variable given_fields
+        set given_fields {}
+        set settings [dict get $options settings]
+        if {![dict exists $settings field] || [catch { dict get $settings field } list]} { return $options }
+        set fields {}
+        foreach {name kind} $list {
+            if {$kind eq ""} { set kind $name }
+            if {[in_vmd] && $kind ni [core::field_kinds] && $kind in [atomselect keywords]} { set kind given:$kind }
+            if {[string match given:?* $kind]} { lappend given_fields [string range $kind 6 end] }
+            lappend fields $name $kind
+        }
+        dict set options settings field $fields
+        return $options
     }
 
     # Called by the ensemble for an unknown subcommand.

@@ -47,8 +47,10 @@ namespace eval ::espdiff {
     }
 
     # All of the core's endpoint but the coordinates, and under `mol`, `n_atoms` and `sel` where they are: one look at
-    # the structure serves all frames. The selection is that of the endpoint's frame.
+    # the structure serves all frames. The selection is that of the endpoint's frame. `given` are the names of the
+    # atoms' fields that come along.
     proc vmd_structure {endpoint role} {
+        variable given_fields
         set mol [vmd_molecule_id [dict get $endpoint mol] $role]
         set name [molinfo $mol get name]
         set n_atoms [molinfo $mol get numatoms]
@@ -70,6 +72,7 @@ namespace eval ::espdiff {
         set whole [value_or $endpoint whole 0]
         if {$whole ni {0 1}} { fail "$role: whole '$whole' is not 0 or 1" }
         return [dict create mol $mol n_atoms $n_atoms sel $text atoms $atoms indices $indices whole $whole \
+            given [lsort -unique $given_fields] \
             radii_origin [expr {$radii eq "element" ? "element" : [vmd_radii_origin $mol]}] \
             charges_origin [vmd_charges_origin $mol $atoms]]
     }
@@ -85,12 +88,35 @@ namespace eval ::espdiff {
             fail "molecule $mol ($name): frame $frame has [expr {[string length $coordinates] / 12}] atoms instead of\
                 [dict get $structure n_atoms]"
         }
-        set endpoint [dict remove $structure mol n_atoms sel]
+        set endpoint [dict remove $structure mol n_atoms sel given]
         dict set endpoint coordinates $coordinates
         dict set endpoint name "$name, frame $frame"
         dict set endpoint input "mol $mol \"$name\" frame $frame sel \"[dict get $structure sel]\""
         dict set endpoint cell [molinfo $mol get {a b c alpha beta gamma} frame $frame]
+        if {[llength [dict get $structure given]] > 0} {
+            dict set endpoint values [vmd_values $mol $frame [dict get $structure given]]
+        }
         return $endpoint
+    }
+
+    # Values of all atoms at a frame, {NAME LIST ...}: `user` and its like are of a frame, the others of the molecule.
+    proc vmd_values {mol frame names} {
+        set all [atomselect $mol all frame $frame]
+        finally {
+            set values {}
+            foreach name $names {
+                if {[catch { $all get $name } column]} {
+                    fail "field $name: VMD's atoms have none of that name ($column); `atomselect keywords` lists them"
+                }
+                foreach value $column {
+                    if {![string is double -strict $value]} {
+                        fail "field $name: VMD's atoms have '$value' there, which is no number"
+                    }
+                }
+                lappend values $name $column
+            }
+        } { $all delete }
+        return $values
     }
 
     # The atoms of a region, as indices; VMD's selections know distances, such as

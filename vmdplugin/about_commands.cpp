@@ -11,6 +11,7 @@
 #include "compare/settings.h"
 #include "engine/potential_stage.h"
 #include "engine/select_engine.h"
+#include "field/field_kinds.h"
 #include "io/read_dx.h"
 #include "io/read_structure.h"
 #include "io/structure_file.h"
@@ -285,6 +286,12 @@ Tcl_Obj* colours(const Call& call) {
 
 }  // namespace
 
+Tcl_Obj* list_field_kinds(const Call&) {
+  std::vector<std::string> names;
+  for (const FieldKind& kind : field_kinds()) names.push_back(kind.quantity.name);
+  return to_list(names);
+}
+
 std::vector<Command> about_commands() {
   return {{"version", 0, 0, "", version},
           {"build", 0, 0, "", build},
@@ -297,6 +304,7 @@ std::vector<Command> about_commands() {
           {"usual_potential", 1, 1, "molecules", usual_potential},
           {"renamed_settings", 0, 0, "", list_renamed},
           {"metrics", 0, 0, "", list_metrics},
+          {"field_kinds", 0, 0, "", list_field_kinds},
           {"abi", 0, 0, "", abi},
           {"models", 1, 1, "file", models},
           {"map_unit", 1, 1, "file", map_unit},

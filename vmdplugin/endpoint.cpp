@@ -10,6 +10,7 @@
 #include "averaged_endpoint.h"
 #include "base/error.h"
 #include "base/vector.h"
+#include "field/given_values.h"
 #include "fingerprint.h"
 #include "io/molecule_builder.h"
 #include "io/read_grid.h"
@@ -69,6 +70,25 @@ VmdAtom atom_of(Tcl_Obj* description, const std::string& what) {
   return atom;
 }
 
+/// Values of fields, of all atoms in the coordinates; those of the molecule's are kept.
+/// @param places [atom of the molecule] in the coordinates
+void take_given_values(Tcl_Obj* description, const std::vector<std::size_t>& places, std::size_t n_coordinates,
+                       const std::string& role, State& state) {
+  const std::vector<Tcl_Obj*> pairs = to_vector(description, role + " values");
+  auto given = std::make_shared<GivenValues>(state.molecule);
+  for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) {
+    const std::string name = to_string(pairs[k]), what = state.molecule.name + ", " + name;
+    const std::vector<Tcl_Obj*> all = to_vector(pairs[k + 1], what);
+    if (all.size() != n_coordinates)
+      throw InputError(what + ": " + std::to_string(all.size()) + " values for " + std::to_string(n_coordinates) +
+                       " atoms");
+    std::vector<float> values;
+    for (const std::size_t place : places) values.push_back(static_cast<float>(to_double(all[place], what)));
+    given->add(name, std::move(values));
+  }
+  state.given = std::move(given);
+}
+
 void parse_vmd_molecule(DictReader& reader, const std::string& role, State& state) {
   const std::string name = reader.text("name", role);
   const std::vector<Tcl_Obj*> atoms = to_vector(reader.require("atoms"), role + " atoms");
@@ -87,6 +107,7 @@ void parse_vmd_molecule(DictReader& reader, const std::string& role, State& stat
   const ValueOrigin charges = origin_named(reader.text("charges_origin", "none"), "charges_origin");
   MoleculeBuilder builder(name, {});
   std::vector<float> charge;
+  std::vector<std::size_t> places;
   for (std::size_t i = 0; i < atoms.size(); ++i) {
     const std::string what = name + ", atom " + std::to_string(i);
     VmdAtom atom = atom_of(atoms[i], what);
@@ -94,6 +115,7 @@ void parse_vmd_molecule(DictReader& reader, const std::string& role, State& stat
     if (at >= positions.size())
       throw InputError(what + ": there are coordinates of " + std::to_string(positions.size()) + " atoms only");
     atom.entry.position = static_cast<Vec3d>(positions[at]);
+    places.push_back(at);
     charge.push_back(static_cast<float>(atom.charge));
     if (radii == ValueOrigin::kElement) {
       builder.add(atom.entry);
@@ -117,6 +139,7 @@ void parse_vmd_molecule(DictReader& reader, const std::string& role, State& stat
   }
   state.is_selected = true;
   state.input = {{}, input, fingerprint(molecule)};
+  if (Tcl_Obj* const values = reader.find("values")) take_given_values(values, places, positions.size(), role, state);
   if (Tcl_Obj* const list = reader.find("region")) {
     std::set<std::size_t> chosen;
     for (Tcl_Obj* const index : to_vector(list, role + " region"))

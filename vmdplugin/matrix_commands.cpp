@@ -59,7 +59,7 @@ Tcl_Obj* matrix(const Call& call) {
   study.settings = reader.rest();
   study.each_by_itself = true;
   if (!study.run.cluster_by.empty())  // reports a wrong one at once
-    find_metric(study.run.cluster_by, part_names(study.options.input));
+    find_metric(study.run.cluster_by, parts_and_fields(study.options));
   std::vector<std::string> labels;
   for (Tcl_Obj* const variant : to_vector(call.arguments[0], "variants")) {
     study.variants.push_back(parse_variant(variant, labels.size() + 1));

@@ -91,9 +91,9 @@ Tcl_Obj* trajectory(const Call& call) {
   plan.reference = reader.text("row_reference", run.reference);
   plan.start = run.start = parse_start(reader.text("start", "auto"), plan.options);
   plan.skip_errors = reader.text("on_error", "stop") == "skip";
-  plan.parts = part_names(plan.options.input);
+  plan.compared = parts_and_fields(plan.options);
   if (reader.boolean("region", false) && !plan.options.input.has_region())
-    plan.parts.insert(plan.parts.begin(), kRegionPart);
+    plan.compared.parts.insert(plan.compared.parts.begin(), kRegionPart);
   object->one_map = reader.boolean("one_map", false);
   object->against = plan.against;
   const std::string source_file = reader.text("source_file", ""), residues = reader.text("residues", ""),
@@ -107,8 +107,8 @@ Tcl_Obj* trajectory(const Call& call) {
   if (!source_file.empty()) run.reference_files = {source_file};
   const SeriesHead head = series_head(run, plan.options);
   std::optional<ResidueCsv> table;
-  if (!residues.empty()) table.emplace(residues, quantity, existing);
-  SeriesCsv rows(csv, head, existing, plan.parts);
+  if (!residues.empty()) table.emplace(residues, quantity, existing, plan.options.fields);
+  SeriesCsv rows(csv, head, existing, plan.compared);
   object->run = std::make_unique<TrajectoryRun>(std::move(plan), std::move(rows), std::move(table));
   if (!run.files.empty()) object->files = std::make_unique<FrameFiles>(run.files);
   if (!source_file.empty()) object->source_files = std::make_unique<FrameFiles>(std::vector{source_file});

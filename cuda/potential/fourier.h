@@ -1,4 +1,4 @@
-// fourier.h: convolution of a periodic grid in Fourier space, by FFTW on the CPU and cuFFT on a device.
+// fourier.h: convolution of a periodic grid in Fourier space, by pocketfft on the CPU and cuFFT on a device.
 #pragma once
 
 #include <array>

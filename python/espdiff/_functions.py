@@ -7,8 +7,10 @@ import tempfile
 import typing
 import warnings
 
+import numpy as np
+
 from . import _checks, _core
-from ._inputs import refuse_the_same_atoms, state_of
+from ._inputs import refuse_the_same_atoms, state_of, with_values
 from ._results import Comparison, Matrix
 from ._signatures import PREPARATION_GROUPS, option_rows, takes_options
 
@@ -40,6 +42,35 @@ def _as_settings(options):
         fields = [f"{name}={kind}" for name, kind in fields.items()]
     return [(name.replace("_", "-"), _as_text(value)) for name, value in options.items()] + [
         ("patch", f"{name}={selection}") for name, selection in patches.items()] + [("field", field) for field in fields]
+
+
+def _array_fields(options, n_states):
+    """Takes fields of arrays out of the options: the options with given:NAME in their place, and
+    {name: [an array for each state]}. One array serves all states; a list or tuple has one for each."""
+    fields = options.get("fields")
+    if not hasattr(fields, "items"):
+        return options, {}
+    kinds, arrays = {}, {}
+    for name, value in fields.items():
+        if isinstance(value, str):
+            kinds[name] = value
+            continue
+        several = isinstance(value, (list, tuple)) and len(value) > 0 and all(np.ndim(entry) > 0 for entry in value)
+        if several and len(value) != n_states:
+            raise _core.InputError(f"fields[{name!r}]: there are {len(value)} arrays for {n_states} states")
+        if not several and np.ndim(value) != 1:
+            raise _core.InputError(f"fields[{name!r}]: {value!r} is neither a kind, such as 'hydrophobicity', nor an array "
+                                   "with a number for each atom")
+        kinds[name], arrays[name] = f"given:{name}", list(value) if several else [value] * n_states
+    return {**options, "fields": kinds}, arrays
+
+
+def _with_arrays(states, given, arrays, roles):
+    """The States with their arrays; `given` is what they were made of."""
+    for name, values in arrays.items():
+        states = [with_values(one, state, name, array, role)
+                  for one, state, array, role in zip(given, states, values, roles)]
+    return states
 
 
 def _call(function, options):
@@ -108,6 +139,8 @@ def compare(source, target, *, potential: str = "auto", source_map=None, target_
     device: auto, cpu, cuda or cuda:N. threads: of the CPU; 0 for all.
     progress: True for a bar (tqdm), or a function of (stage, fraction).
     options: those of the command line, with underscores: ionic_strength=0.1, method="deform".
+    fields: other quantities besides, {name: kind}; instead of a kind an array with a number for each atom, or a pair of
+    arrays, of the source's and of the target's atoms.
 
     Returns a Comparison. Raises espdiff.Error: InputError, FormatError, IoError, GeometryError, ...; Ctrl-C raises
     KeyboardInterrupt and ends the computation.
@@ -117,6 +150,8 @@ def compare(source, target, *, potential: str = "auto", source_map=None, target_
         refuse_the_same_atoms(source, target)
     a = _with_map(state_of(source, "source"), source_map, source_map_unit, "source")
     b = _with_map(state_of(target, "target"), target_map, target_map_unit, "target")
+    options, arrays = _array_fields(options, 2)
+    a, b = _with_arrays([a, b], [source, target], arrays, ["source", "target"])
     call = _call("compare", {"potential": potential, **options})
     with _Progress(progress, "compare") as listener:
         return Comparison(_core.compare(a, b, _as_settings(options), potential, pme_cell, device, threads, call, listener))
@@ -195,7 +230,9 @@ def matrix(states, labels=None, *, groups=None, potential: str = "auto", pme_cel
         raise _core.InputError("output: a part of a matrix, or one to go on with, needs files")
     if not isinstance(exact_sample, int) or exact_sample < 0:
         raise _core.InputError(f"exact_sample: {exact_sample!r} is no number of pairs; give 0 or more")
-    given = [state_of(state, f"states[{i}]") for i, state in enumerate(states)]
+    roles = [f"states[{i}]" for i in range(len(states))]
+    options, arrays = _array_fields(options, len(states))
+    given = _with_arrays([state_of(state, role) for state, role in zip(states, roles)], states, arrays, roles)
     with _Progress(progress, "matrix") as listener, tempfile.TemporaryDirectory(prefix="espdiff-") as scratch:
         prefix = _checks.path("output", output) if output is not None else os.path.join(scratch, "matrix")
         text = _core.matrix(given, list(labels), list(groups or []), _as_settings(options), potential, pme_cell, device,
@@ -234,14 +271,24 @@ class Series:
     def __init__(self, source, *, potential: str = "auto", pme_cell: str = "auto", start: str = "auto",
                  device: str = "auto", threads: int = 0, **options: Unpack[Options]):
         potential, pme_cell, device, threads = _checks.computation(potential, device, threads, pme_cell)
+        options, arrays = _array_fields(options, 2)
+        self._arrays = {name: target for name, (_, target) in arrays.items()}
+        of_source, = _with_arrays([state_of(source, "source")], [source], {n: a[:1] for n, a in arrays.items()}, ["source"])
         call = _call("Series", {"potential": potential, "start": _checks.text("start", start), **options})
-        self._series = _core.Series(state_of(source, "source"), _as_settings(options), potential, pme_cell, start, device,
-                                    threads, call)
+        self._series = _core.Series(of_source, _as_settings(options), potential, pme_cell, start, device, threads, call)
 
-    def step(self, target, progress=None) -> Comparison:
-        """Compares the source with the next target. Returns a Comparison."""
+    def step(self, target, progress=None, *, fields=None) -> Comparison:
+        """Compares the source with the next target. Returns a Comparison.
+
+        fields: {name: array} of this target, instead of those that the series was given.
+        """
+        arrays = {**self._arrays, **(fields or {})}
+        if arrays.keys() - self._arrays.keys():
+            raise _core.InputError(f"fields: the series has no field of arrays {sorted(arrays.keys() - self._arrays.keys())[0]!r}"
+                                   "; name it where the Series is made")
+        state, = _with_arrays([state_of(target, "target")], [target], {n: [a] for n, a in arrays.items()}, ["target"])
         with _Progress(progress, "compare") as listener:
-            return Comparison(self._series.step(state_of(target, "target"), listener))
+            return Comparison(self._series.step(state, listener))
 
 
 def frames(topology, *files, plugins=""):

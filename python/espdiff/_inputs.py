@@ -43,6 +43,8 @@ def _rebuild(parts):
             made = made._with_preparation(parts["preparation"])
     if parts.get("everything") is not None:
         made = made.surrounded_by(State.from_arrays(**parts["everything"]))
+    for name, values in parts.get("values", {}).items():
+        made = made._with_values(name, values)
     if "map_path" in parts:
         made = made.with_map(parts["map_path"], unit=parts["unit"], array=parts["array"])
     elif "map" in parts:
@@ -80,6 +82,25 @@ def state_of(given, role="state"):
         f"{role}: a {type(given).__name__} is no molecule; give a path, an espdiff.State, a Universe or AtomGroup of "
         "MDAnalysis, or atoms of ProDy"
     )
+
+
+def with_values(given, made, name, values, role="state"):
+    """The State `made` of `given`, with the field given:NAME: a number for each atom of `given`; NaN for none."""
+    values = np.asarray(values, dtype=np.float32)
+    if values.ndim != 1:
+        raise InputError(f"fields[{name!r}]: the values of {role} have {values.ndim} axes; give one number for each atom")
+    of = None
+    if is_atomgroup(given):
+        atoms = given.atoms
+        if len(values) != len(atoms):
+            raise InputError(f"fields[{name!r}]: there are {len(values)} values for the {len(atoms)} atoms of {role}")
+        values = values[np.isin(atoms.ix, one_conformation(atoms).ix)]
+        if len(values) != len(made):
+            of = _from_mdanalysis(atoms, role)  # with the water
+    try:
+        return made._with_values(name, values.tolist(), of)
+    except InputError as error:
+        raise InputError(f"{role}: {error}") from None
 
 
 def _texts(values):

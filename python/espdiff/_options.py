@@ -1,6 +1,6 @@
 """The options of comparisons for type checkers; written by `python -m espdiff._signatures`."""
 
-from typing import Dict, List, TypedDict, Union
+from typing import Any, Dict, List, TypedDict, Union
 
 
 class Options(TypedDict, total=False):
@@ -36,7 +36,7 @@ class Options(TypedDict, total=False):
     scan: bool
     side_chains: int
     side_chain_seed: int
-    fields: Dict[str, str]
+    fields: Dict[str, Any]
     offset: str
     temperature: float
     trust_maps: bool

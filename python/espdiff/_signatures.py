@@ -69,14 +69,15 @@ def typed_options():
     names = {"number": "float", "integer": "int", "boolean": "bool", "choice": "str", "text": "str",
              "list": "Union[str, List[str]]", "named": "Dict[str, str]"}
     lines = ['"""The options of comparisons for type checkers; written by `python -m espdiff._signatures`."""', "",
-             "from typing import Dict, List, TypedDict, Union", "", "", "class Options(TypedDict, total=False):"]
+             "from typing import Any, Dict, List, TypedDict, Union", "", "", "class Options(TypedDict, total=False):"]
     lines.append('    """What **options of compare() and its like stands for; `espdiff.help_options()` explains them."""')
     lines.append("")
     for row in option_rows():
         kind = row["kind"]
         if kind == "choice":
             lines.append("    # " + ", ".join(row["choices"]))
-        lines.append(f"    {row['name']}: {names[kind]}")
+        # Of a field, a kind's name or an array.
+        lines.append(f"    {row['name']}: {'Dict[str, Any]' if row['name'] == 'fields' else names[kind]}")
     return "\n".join(lines) + "\n"
 
 

@@ -12,6 +12,7 @@
 
 #include "arrays.h"
 #include "base/error.h"
+#include "field/given_values.h"
 #include "io/atomic_file.h"
 #include "io/elements.h"
 #include "io/molecule_builder.h"
@@ -170,6 +171,18 @@ StatePtr with_map_file(const State& state, const std::string& path, const std::s
   return copy;
 }
 
+/// A copy with values of its atoms, for the field `given:NAME`. NaN: the atom has none.
+/// @param of the state whose atoms the values are of, where this one lacks some; null: itself
+StatePtr with_values(const State& state, const std::string& name, const std::vector<float>& values,
+                     const StatePtr& of) {
+  auto copy = std::make_shared<State>(state);
+  auto given = state.given != nullptr ? std::make_shared<GivenValues>(*state.given)
+                                      : std::make_shared<GivenValues>(of != nullptr ? of->molecule : state.molecule);
+  given->add(name, values);
+  copy->given = std::move(given);
+  return copy;
+}
+
 StatePtr with_map(const State& state, const AnyArray& values, const std::vector<double>& origin,
                   const std::vector<double>& step, const std::string& unit) {
   if (values.ndim() != 3) throw InputError("values: a map has three axes, x, y and z");
@@ -250,6 +263,8 @@ void add_state(nb::module_& module) {
            "The same molecule with the potential of a map file: DX, VTI or cube.")
       .def("with_map", &with_map, nb::arg("values"), nb::arg("origin"), nb::arg("step"), nb::arg("unit") = "kT/e",
            "The same molecule with a potential: values (nx, ny, nz), origin and step in A.")
+      .def("_with_values", &with_values, nb::arg("name"), nb::arg("values"), nb::arg("of").none() = nb::none(),
+           "The same molecule with values of its atoms for the field given:NAME.")
       .def("without_water", &without_water, "The same atoms without water, as files are read.")
       .def("save", &save_pqr, nb::arg("path"), "Writes a PQR file; raises IoError, and InputError without charges.")
       .def_prop_ro(

@@ -11,6 +11,7 @@
 
 #include "arrays.h"
 #include "base/units.h"
+#include "field/given_values.h"
 
 namespace espdiff::python {
 namespace {
@@ -76,6 +77,12 @@ nb::dict parts_of(const State& state) {
     parts["arrays"] = arrays_of(state.molecule, state.cell);
   }
   if (!state.preparation.empty()) parts["preparation"] = state.preparation;
+  if (state.given != nullptr) {
+    nb::dict values;
+    for (const std::string& name : state.given->names())
+      values[name.c_str()] = array_from(state.given->values_of(name, state.molecule));
+    parts["values"] = values;
+  }
   if (state.everything != nullptr) {
     parts["everything"] = arrays_of(*state.everything, state.cell);
   }

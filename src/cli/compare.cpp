@@ -1,8 +1,10 @@
 // compare.cpp: `espdiff compare SOURCE TARGET -o OUT`.
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/printable.h"
 #include "cli/help.h"
@@ -117,30 +119,38 @@ double total_seconds(const CompareResult& result) {
   return 0;
 }
 
-/// Tries what may help until an answer can be trusted, where a trial takes seconds, and prints the command.
+/// What was typed, with a change.
+TypedWords words_of(const CompareArguments& a, const WayOn& way, const Context& context) {
+  TypedWords words = with_options(context.words, way.options);
+  if (!a.overwrite && output_prefix(a.typed_output, false, a.source, a.target) == a.output)
+    words = with_options(words, {{"overwrite", "", true}});
+  return way.exchanges ? exchanged(words, a.source, a.target) : words;
+}
+
+/// Tries what may help until an answer can be trusted, where there is time for it, and prints the command.
 void print_next(const CompareArguments& a, const PairAnswer& first, Engine& engine, const Context& context) {
-  constexpr double kLongestTrialSeconds = 30, kMostSeconds = 60;
   const auto begun = std::chrono::steady_clock::now();
   std::vector<std::string> given;
   for (const auto& setting : a.settings) given.push_back(setting.first);
   const bool prepared = first.provenance.preparations.size() == 2;
   const double once_s = total_seconds(first.result);
   std::string tried;
+  std::optional<WayOn> untried;
   for (const WayOn& way : ways_on(first.result, first.source_molecule, first.target_molecule, given, prepared)) {
     const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    if (a.no_trials || once_s > kLongestTrialSeconds || spent_s + once_s > kMostSeconds) break;
+    if (a.no_trials) break;
+    if (!has_time_for(way, once_s, spent_s)) {
+      if (!untried) untried = way;
+      continue;
+    }
     const CompareArguments other = changed(a, way);
     try {
       const CompareOptions options = make_options(other.settings);
       const PairAnswer again = run_pair(study_of(other, options, context), engine, *context.progress);
       tried += (tried.empty() ? "" : "; ") + way.what;
       if (!again.result.certificate.trustworthy) continue;
-      TypedWords words = with_options(context.words, way.options);
-      if (!a.overwrite && output_prefix(a.typed_output, false, a.source, a.target) == a.output)
-        words = with_options(words, {{"overwrite", "", true}});
-      if (way.exchanges) words = exchanged(words, a.source, a.target);
       context.progress->report("write", 1.0);
-      std::cout << "\nnext: " << as_typed(words) << "\n      tried, " << way.what << ": ";
+      std::cout << "\nnext: " << as_typed(words_of(a, way, context)) << "\n      tried, " << way.what << ": ";
       print_verdict_line(std::cout, again.result);
       return;
     } catch (const Cancelled&) {
@@ -148,7 +158,12 @@ void print_next(const CompareArguments& a, const PairAnswer& first, Engine& engi
     } catch (const Error&) {  // the change does not suit these states
     }
   }
-  std::cout << "\nnext: " << as_typed({"render", a.output, "-o", a.output + ".png"}) << "\n      shows where";
+  if (untried) {
+    std::cout << "\nnext: " << as_typed(words_of(a, *untried, context)) << "\n      not tried, " << untried->what
+              << ": it takes about " << std::lround(untried->size * once_s) << " s";
+  } else {
+    std::cout << "\nnext: " << as_typed({"render", a.output, "-o", a.output + ".png"}) << "\n      shows where";
+  }
   if (!tried.empty()) std::cout << "; tried without success: " << tried;
   std::cout << '\n';
 }

@@ -17,6 +17,7 @@
 #include "plot/cause_plot.h"
 #include "plot/heat_map.h"
 #include "plot/line_plot.h"
+#include "report/field_json.h"
 #include "report/metrics.h"
 #include "trajectory/residue_plot.h"
 
@@ -39,26 +40,21 @@ struct Quantity {
   double factor = 1;
 };
 
-/// The metric of a column; "site_mean_abs_difference" is that of the patch site. Null where there is none.
-const Metric* metric_of_column(const std::string& name) {
-  if (const Metric* const whole = find_metric_or_null(name)) return whole;
-  for (const Metric& metric : metrics()) {
-    const std::string ending = std::string("_") + metric.name;
-    if (name.size() <= ending.size() || name.compare(name.size() - ending.size(), ending.size(), ending) != 0) continue;
-    for (const Metric& of_part : part_metrics(name.substr(0, name.size() - ending.size()))) {
-      if (of_part.name == name) return &of_part;
-    }
-  }
-  return nullptr;
-}
-
-Quantity quantity_of(const std::string& name, const std::string& potential_unit) {
-  const Metric* const metric = metric_of_column(name);
+/// @param fields whose columns there are
+Quantity quantity_of(const std::string& name, const std::string& potential_unit,
+                     const std::vector<espdiff::Quantity>& fields = {}) {
+  const Metric* const metric = metric_of_column(name, fields);
   if (metric == nullptr) return {name, "", 1};
   const ShownUnit shown = shown_unit(*metric, potential_unit);
   if (metric->unit == MetricUnit::kAngstrom) return {metric->label, kAngstrom, 1};
   if (metric->unit == MetricUnit::kSquareAngstrom) return {metric->label, std::string(kAngstrom) + "\u00B2", 1};
   return {metric->label, shown.unit, shown.factor};
+}
+
+/// Of a matrix, whose file names what this version does not know.
+Quantity quantity_in(const MatrixFileMetric& metric) {
+  const Quantity known = quantity_of(metric.name, metric.unit);
+  return known.title == metric.name ? Quantity{metric.title, metric.unit, 1} : known;
 }
 
 bool is_antisymmetric(const std::string& name) {
@@ -80,7 +76,7 @@ std::pair<double, double> chosen_range(const PlotArguments& a) {
 
 HeatMap heat_map(const PlotArguments& a, const MatrixFile& matrix) {
   const MatrixFileMetric& metric = matrix.metric(only_metric(a, matrix.clustered_by));
-  const Quantity quantity = quantity_of(metric.name, metric.unit);
+  const Quantity quantity = quantity_in(metric);
   HeatMap map;
   map.labels = matrix.labels;
   map.groups = matrix.groups;
@@ -117,7 +113,7 @@ LinePlot one_against_all(const PlotArguments& a, const MatrixFile& matrix) {
   const std::vector<std::string> names = a.metrics.empty() ? std::vector<std::string>{matrix.clustered_by} : a.metrics;
   for (const std::string& name : names) {
     const MatrixFileMetric& metric = matrix.metric(name);
-    const Quantity quantity = quantity_of(name, metric.unit);
+    const Quantity quantity = quantity_in(metric);
     const double sign = is_antisymmetric(name) ? -1 : 1;
     LineSeries series{quantity.title, quantity.unit, {}, {}};
     for (std::size_t other = 0; other < n; ++other) {
@@ -168,10 +164,11 @@ LinePlot along_table(const PlotArguments& a, const CsvTable& table) {
     for (const auto& row : table.rows) plot.trustworthy.push_back(row[static_cast<std::size_t>(trust)] != "0");
   }
   const std::string unit = potential_unit_of(table);
+  const std::vector<espdiff::Quantity> fields = fields_in_head(table.comments);
   std::vector<std::string> names = a.metrics;
   if (names.empty()) names = {unit.empty() ? "mean_displacement_A" : "mean_abs_difference"};
   for (const std::string& name : names) {
-    const Quantity quantity = quantity_of(name, unit);
+    const Quantity quantity = quantity_of(name, unit, fields);
     LineSeries series{quantity.title, quantity.unit, {}, {}};
     const std::size_t column = table.require(name);
     const int error = table.find(name + "_error");

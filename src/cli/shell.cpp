@@ -1,4 +1,4 @@
-// shell.cpp: `espdiff completion SHELL` and `espdiff man COMMAND`, made from the commands' own options.
+// shell.cpp: `espdiff completion SHELL` and `espdiff man [COMMAND]`, made from the commands' own options.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
@@ -93,12 +93,29 @@ std::string upper(std::string text) {
   return text;
 }
 
+std::string page_start(const std::string& name, const std::string& purpose, const std::string& usage) {
+  return ".TH " + upper(roff(name)) + " 1 \"\" \"espdiff " + std::string(kVersion) + "\" \"espdiff\"\n" +
+         ".ad l\n.SH NAME\n" + roff(name) + " \\- " + roff(purpose) + "\n.SH SYNOPSIS\n.B " + roff(usage) + '\n';
+}
+
+/// The manual page of the program: its commands.
+std::string man_page(const CLI::App& app) {
+  std::string page = page_start("espdiff", "compare electrostatic surface potentials of molecules of different shape",
+                                "espdiff COMMAND [OPTION ...]") +
+                     ".SH COMMANDS\n";
+  std::string others;
+  for (const CLI::App* command : commands_of(app)) {
+    page += ".TP\n.B " + roff(command->get_name()) + '\n' + roff(command->get_description()) + '\n';
+    others += (others.empty() ? "" : ",\n") + (".BR " + roff("espdiff-" + command->get_name())) + " (1)";
+  }
+  return page + ".SH SEE ALSO\n" + others + '\n';
+}
+
 /// The manual page of a command.
 std::string man_page(const CLI::App& app, const CLI::App& command) {
-  const std::string name = app.get_name() + '-' + command.get_name();
-  std::string page = ".TH " + upper(roff(name)) + " 1 \"\" \"espdiff " + std::string(kVersion) + "\" \"espdiff\"\n" +
-                     ".SH NAME\n" + roff(name) + " \\- " + roff(command.get_description()) + "\n.SH SYNOPSIS\n.B " +
-                     roff(usage_line(command)) + "\n.SH ARGUMENTS\n";
+  std::string page =
+      page_start(app.get_name() + '-' + command.get_name(), command.get_description(), usage_line(command)) +
+      ".SH ARGUMENTS\n";
   for (const CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->get_positional(); }))
     page += ".TP\n.I " + roff(option->get_name(true)) + '\n' + roff(option->get_description()) + '\n';
   for (const std::string& group : command.get_groups()) {
@@ -139,11 +156,11 @@ Verb add_completion(CLI::App& app) {
 
 Verb add_man(CLI::App& app) {
   auto command = std::make_shared<std::string>();
-  CLI::App* parser = app.add_subcommand("man", "Print the manual page of a command");
-  parser->add_option("COMMAND", *command, "A command of espdiff")->required();
+  CLI::App* parser = app.add_subcommand("man", "Print the manual page of the program or of a command");
+  parser->add_option("COMMAND", *command, "A command of espdiff; the program itself when none is named");
   set_help(*parser, {"", {"espdiff man compare | man -l -"}});
   return {parser, [command, &app](const Context&) {
-            std::cout << man_page(app, command_named(app, *command));
+            std::cout << (command->empty() ? man_page(app) : man_page(app, command_named(app, *command)));
             return 0;
           }};
 }

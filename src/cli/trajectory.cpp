@@ -149,14 +149,14 @@ int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
   plan.frames = parse_frames(a.frames, sides.frames());
   plan.start = parse_start(a.start, plan.options);
   plan.skip_errors = a.on_error == "skip";
-  plan.parts = part_names(plan.options.input);
+  plan.compared = parts_and_fields(plan.options);
   const ExistingFile existing = a.resume      ? ExistingFile::kResume
                                 : a.overwrite ? ExistingFile::kReplace
                                               : ExistingFile::kRefuse;
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   std::optional<ResidueCsv> residues;
-  if (!a.residues.empty()) residues.emplace(a.residues, a.residue_quantity, existing);
-  TrajectoryRun run(plan, SeriesCsv(a.output, head_of(a, plan, sides.potential()), existing, plan.parts),
+  if (!a.residues.empty()) residues.emplace(a.residues, a.residue_quantity, existing, plan.options.fields);
+  TrajectoryRun run(plan, SeriesCsv(a.output, head_of(a, plan, sides.potential()), existing, plan.compared),
                     std::move(residues));
   if (!run.warning().empty()) std::fprintf(stderr, "espdiff: %s\n", printable(run.warning()).c_str());
   run.note_inputs(sides.inputs());

@@ -408,7 +408,7 @@ struct Series::Steps {
     StageClock clock(time_ms);
     check_maps(source, target);  // before any work
     check_causes(options, source, target);
-    const StateFields target_fields = make_state_fields(fields, *target.molecule, FieldSide::kTarget);
+    const StateFields target_fields = make_state_fields(fields, *target.molecule, {FieldSide::kTarget, target.fields});
     progress.report("align", 0.0);
     const CommonFrame frame = align(*source.molecule, *target.molecule, options, result);
     result.warnings = input_warnings(*source.molecule, *target.molecule, result);
@@ -458,7 +458,7 @@ struct Series::Steps {
 Series::Series(Engine& engine, const CompareInput& source, const CompareOptions& options)
     : steps_(new Steps{engine, source, options}) {
   steps_->fields = make_fields(options.fields);
-  steps_->source_fields = make_state_fields(steps_->fields, *source.molecule, FieldSide::kSource);
+  steps_->source_fields = make_state_fields(steps_->fields, *source.molecule, {FieldSide::kSource, source.fields});
 }
 Series::~Series() = default;
 

@@ -52,7 +52,8 @@ std::vector<ResidueMeans> means_of(const FieldResult& field, const MappedSurface
 
 }  // namespace
 
-StateFields make_state_fields(const std::vector<Field>& fields, const Molecule& molecule, FieldSide side) {
+StateFields make_state_fields(const std::vector<Field>& fields, const Molecule& molecule, const FieldSide& side) {
+  if (side.input.made != nullptr) return *side.input.made;
   StateFields made;
   for (const Field& field : fields) {
     try {
@@ -110,6 +111,7 @@ void compare_fields(Engine& engine, const std::vector<Field>& fields, const Fiel
     }
     field.residues = means_of(field, result.surface, result.residues.size());
     for (const StateField* of_state : {&source.fields[f], &target.fields[f]}) {
+      field.files.insert(field.files.end(), of_state->files.begin(), of_state->files.end());
       for (const std::string& note : of_state->notes)
         result.warnings.push_back({"field " + field.quantity.name + ": " + note, false});
     }

@@ -14,8 +14,9 @@ struct CompareOptions;
 /// The fields of one state, made before the work; as many as the options name.
 using StateFields = std::vector<StateField>;
 
-/// Makes the fields of a state. @throws InputError naming the field
-StateFields make_state_fields(const std::vector<Field>& fields, const Molecule& molecule, FieldSide side);
+/// Makes the fields of a state, or takes those of `side.input` that were made before.
+/// @throws InputError naming the field
+StateFields make_state_fields(const std::vector<Field>& fields, const Molecule& molecule, const FieldSide& side);
 
 /// One side's fields, and where they are read.
 struct FieldsOfSide {

@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "base/surface_parts.h"
 #include "base/types.h"
+#include "field/field_side.h"
 
 namespace espdiff {
 
@@ -26,6 +27,7 @@ struct CompareInput {
   const Grid* map = nullptr;
   MapMaker make_map = nullptr;  ///< used instead of `map`
   SurfaceParts parts{};         ///< of the source: results are given for them as well
+  FieldInput fields{};          ///< what its fields are made of besides
 };
 
 }  // namespace espdiff

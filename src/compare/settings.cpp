@@ -397,7 +397,7 @@ std::vector<std::pair<std::string, std::string>> setting_texts(const CompareOpti
 
 void refuse_fields(const CompareOptions& options, const std::string& what) {
   if (!options.fields.empty())
-    throw InputError(option("field") + ": " + what + " has no fields besides the potential; compare pairs by them");
+    throw InputError(option("field") + ": " + what + " has no fields besides the potential; leave the option out");
 }
 
 const Setting& find_setting(const std::string& name) {
@@ -440,7 +440,7 @@ CompareOptions make_options(const std::vector<std::pair<std::string, std::string
   for (const auto& [name, text] : given) find_setting(name).set(options, text);
   refuse_of_other_method(given, options.method);
   check_input_options(options.input);
-  check_fields(options.fields);
+  check_fields(options.fields, part_names(options.input));
   check_readings(options);
   return options;
 }

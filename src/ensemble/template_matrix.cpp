@@ -86,8 +86,8 @@ void check_request(const std::vector<Variant>& variants, const CompareOptions& o
     throw InputError(option("template") + ": a template gives differences of potentials, and " + without->label +
                      " has none; give charges or maps, or leave the option out to compare shapes");
   if (run.cluster_by.empty()) return;
-  const std::vector<std::string> parts = part_names(options.input);
-  const Metric& metric = matrix_metrics(parts)[find_metric(run.cluster_by, parts)];
+  const PartsAndFields compared = parts_and_fields(options);
+  const Metric& metric = matrix_metrics(compared)[find_metric(run.cluster_by, compared)];
   if (!is_given_by_template(metric))
     throw InputError(option("cluster-by", run.cluster_by) +
                      ": a template does not give this metric, only differences of potentials");
@@ -144,13 +144,14 @@ Progress part_of(const Progress& progress, double begin, double end) {
 MatrixReport run_template_matrix(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                                  const TemplateRequest& request, const MatrixRun& run, const Progress& progress) {
   refuse_causes(options, "a matrix");
+  refuse_fields(options, "a matrix through a template");
   check_request(variants, options, run);
   const std::string path = ensemble_path(run.output, run.shard), state = state_path(run.output, run.shard);
   MatrixRun files = run;
   files.through_template = true;
   if (fs::exists(request.text)) files.read_files.push_back(request.text);
   check_matrix_files(files, variants);
-  check_existing(run, fs::exists(path), part_names(options.input));
+  check_existing(run, fs::exists(path), parts_and_fields(options));
   const MatrixPlan plan = make_plan(engine, variants, options, run.potential, run.radii_note);
   const Template chosen = choose_template(variants, request, progress);
   const std::vector<MatrixPair> sample = exact_pairs(variants.size(), request.n_exact, run.shard);
@@ -190,7 +191,7 @@ MatrixReport merge_template_matrix(const std::vector<std::string>& paths, const 
   for (const std::string& path : paths) (is_hdf5_file(path) ? files : states).push_back(path);
   check_outputs(paths, {run.output + ".csv", run.output + ".json", ensemble_path(run.output, {})});
   const EnsemblePlan plan = EnsembleFile(files.front(), false).plan();
-  check_results(run, run.overwrite, plan.matrix->parts());
+  check_results(run, run.overwrite, plan.matrix->compared());
   std::vector<MatrixCell> exact;
   for (const std::string& path : states) {
     const MatrixStateContent part = read_matrix_state(path);

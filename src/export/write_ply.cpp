@@ -13,9 +13,29 @@ const VtpNumbers* ply_normals(const ExportedResult& result) {
   return normals != nullptr && normals->n_components == 3 ? normals : nullptr;
 }
 
+/// Comments as lines that MeshLab reads: it takes 511 bytes at most. A continued line cannot be taken for another
+/// comment.
+void write_comment(std::ostream& out, const std::string& text) {
+  constexpr std::size_t kLongest = 400;
+  const char* start = "comment ";
+  std::size_t from = 0;
+  while (text.size() - from > kLongest) {
+    std::size_t to = text.rfind(' ', from + kLongest);
+    const bool at_space = to != std::string::npos && to > from + kLongest / 2;
+    if (!at_space) {
+      to = from + kLongest;
+      while ((static_cast<unsigned char>(text[to]) & 0xC0U) == 0x80U) --to;  // inside a character of UTF-8
+    }
+    out << start << text.substr(from, to - from) << '\n';
+    from = to + (at_space ? 1 : 0);
+    start = "comment   ";
+  }
+  out << start << text.substr(from) << '\n';
+}
+
 void write_ply_head(std::ostream& out, const ExportedResult& result, const std::vector<SurfaceQuantity>& quantities) {
   out << "ply\nformat binary_little_endian 1.0\n";
-  for (const auto& [name, text] : result.notes) out << "comment " << name << ": " << text << '\n';
+  for (const auto& [name, text] : result.notes) write_comment(out, name + ": " + text);
   out << "comment counted_faces " << result.triangles.counted.size() << '\n';
   out << "element vertex " << result.files.surface.positions.size() << '\n';
   std::vector<std::string> names = {"x", "y", "z"};

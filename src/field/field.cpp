@@ -11,14 +11,22 @@
 
 namespace espdiff {
 
-const char* to_string(FieldSide side) { return side == FieldSide::kSource ? "source" : "target"; }
+const char* to_string(const FieldSide& side) {
+  switch (side.role) {
+    case FieldSide::kSource: return "source";
+    case FieldSide::kTarget: return "target";
+    case FieldSide::kVariant: return "variant";
+    case FieldSide::kFrame: break;
+  }
+  return "frame";
+}
 
 FieldKind kind_of_atoms(Quantity quantity, std::string help, std::string reference,
                         std::function<std::vector<float>(const Molecule&)> values) {
   FieldKind kind{std::move(quantity), "", std::move(help), std::move(reference), nullptr};
   kind.field = [values = std::move(values)](const FieldKind& self, const std::string&) {
     Field field{self.quantity, self.quantity.name, self.reference, nullptr};
-    field.make = [values, label = self.quantity.label](const Molecule& molecule, FieldSide side) {
+    field.make = [values, label = self.quantity.label](const Molecule& molecule, const FieldSide& side) {
       StateField of_state;
       of_state.atoms = values(molecule);
       if (std::none_of(of_state.atoms.begin(), of_state.atoms.end(), [](float v) { return std::isfinite(v); }))

@@ -12,6 +12,7 @@
 #include "base/types.h"
 #include "engine/field_stage.h"
 #include "field/field_result.h"
+#include "field/field_side.h"
 
 namespace espdiff {
 
@@ -38,13 +39,11 @@ struct StateField {
   std::shared_ptr<const Grid> map;
   SurfaceReader on_surface;
   std::vector<std::string> notes;  ///< what a reader of the result has to know
+  std::vector<FieldFile> files;    ///< that this state alone has
 };
 
-enum class FieldSide { kSource, kTarget };
-const char* to_string(FieldSide side);  ///< "source", "target"
-
 /// Makes a field of a state. @throws InputError (the state has none)
-using FieldMaker = std::function<StateField(const Molecule& molecule, FieldSide side)>;
+using FieldMaker = std::function<StateField(const Molecule& molecule, const FieldSide& side)>;
 
 /// A field, as it was asked for.
 struct Field {
@@ -52,7 +51,7 @@ struct Field {
   std::string what;       ///< KIND or KIND:ARGUMENT
   std::string reference;  ///< author, title, year of its values; empty for the user's own
   FieldMaker make;
-  std::vector<FieldFile> files{};  ///< that its values come from
+  std::vector<FieldFile> files{};  ///< that all states share
 };
 
 /// A kind of field: a row of `espdiff fields`. Its file is field/kinds/NAME.cpp.

@@ -10,12 +10,13 @@
 
 #include "base/error.h"
 #include "base/residue_label.h"
+#include "field/file_pattern.h"
 #include "io/read_csv.h"
 #include "io/sha256.h"
 
 namespace espdiff {
 
-SideFiles::SideFiles(const std::string& kind, const std::string& argument) {
+SideFiles::SideFiles(const std::string& kind, const std::string& argument) : kind_(kind) {
   const std::size_t comma = argument.find(',');
   source_ = argument.substr(0, comma);
   if (comma != std::string::npos) target_ = argument.substr(comma + 1);
@@ -24,8 +25,28 @@ SideFiles::SideFiles(const std::string& kind, const std::string& argument) {
                      ":SOURCE_FILE,TARGET_FILE");
 }
 
-const std::string& SideFiles::of(FieldSide side) const {
-  return side == FieldSide::kSource || target_.empty() ? source_ : target_;
+std::string SideFiles::what() const { return kind_ + ":" + source_ + (target_.empty() ? "" : "," + target_); }
+
+const std::string& SideFiles::pattern_of(const FieldSide& side) const {
+  if (side.is_one_of_many() && !target_.empty())
+    throw InputError(what() + " names a file for the source and one for the target, and here are many states; give " +
+                     "one for all, or one for each by a place in its name (" +
+                     (side == FieldSide::kVariant ? "{label}, {group}" : "{replicate}, %d") + ")");
+  return side == FieldSide::kTarget && !target_.empty() ? target_ : source_;
+}
+
+std::string SideFiles::of(const FieldSide& side) const { return fill_pattern(pattern_of(side), side.input, what()); }
+
+std::string SideFiles::own_of(const FieldSide& side) const {
+  const std::string& pattern = pattern_of(side);
+  const bool is_frame = side.input.frame >= 0;
+  if (is_frame && count_frame_places(pattern) == 0)
+    throw InputError(what() + ": each frame needs a map of its own, in its place; name them by the frame's number, " +
+                     "as in " + kind_ + (side == FieldSide::kTarget ? ":SOURCE.dx,frame.%d.dx" : ":frame.%d.dx"));
+  if (side == FieldSide::kVariant && !is_pattern(pattern))
+    throw InputError(what() + ": each variant needs a map of its own, in its place; name them by the label, as in " +
+                     kind_ + ":{label}.dx");
+  return of(side);
 }
 
 std::vector<std::string> SideFiles::all() const {
@@ -34,8 +55,16 @@ std::vector<std::string> SideFiles::all() const {
 
 std::vector<FieldFile> SideFiles::with_sums() const {
   std::vector<FieldFile> files;
-  for (const std::string& path : all()) files.push_back({path, sha256_of_file(path)});
+  for (const std::string& path : all()) {
+    if (!is_pattern(path)) files.push_back({path, sha256_of_file(path)});
+  }
   return files;
+}
+
+std::vector<FieldFile> SideFiles::own_with_sum(const FieldSide& side) const {
+  if (!is_pattern(pattern_of(side))) return {};
+  const std::string path = of(side);
+  return {{path, sha256_of_file(path)}};
 }
 
 namespace {
@@ -96,7 +125,7 @@ ValueTable::ValueTable(const std::string& path, bool of_atoms) : path_(path), of
   }
 }
 
-StateField ValueTable::values_of(const Molecule& molecule, FieldSide side) const {
+StateField ValueTable::values_of(const Molecule& molecule, const FieldSide& side) const {
   StateField field;
   std::set<std::string> found;
   std::set<std::size_t> without;
@@ -115,7 +144,11 @@ StateField ValueTable::values_of(const Molecule& molecule, FieldSide side) const
   if (found.empty())
     throw InputError(path_ + ": it has none of the " + places + " of " + state +
                      (order_.empty() ? "" : "; it begins with " + entries_.at(order_.front()).label) +
-                     "; check chains and numbers, or give a table for each state (SOURCE_FILE,TARGET_FILE)");
+                     "; check chains and numbers, or give a table for each state (" +
+                     (side == FieldSide::kVariant ? "{label} in its name"
+                      : side == FieldSide::kFrame ? "{replicate} in its name"
+                                                  : "SOURCE_FILE,TARGET_FILE") +
+                     ")");
   const std::size_t n_unknown = entries_.size() - found.size();
   for (const std::string& key : order_) {
     if (found.count(key) > 0) continue;
@@ -133,12 +166,21 @@ StateField ValueTable::values_of(const Molecule& molecule, FieldSide side) const
 
 Field field_of_tables(const FieldKind& kind, const std::string& argument, bool of_atoms) {
   const SideFiles files(kind.quantity.name, argument);
-  const auto source = std::make_shared<const ValueTable>(files.of(FieldSide::kSource), of_atoms);
-  const auto target =
-      files.is_one() ? source : std::make_shared<const ValueTable>(files.of(FieldSide::kTarget), of_atoms);
+  const auto tables = std::make_shared<std::map<std::string, ValueTable>>();  // those that were read
+  const auto table_of = [tables, of_atoms](const std::string& path) -> const ValueTable& {
+    const auto found = tables->find(path);
+    return found != tables->end() ? found->second : tables->emplace(path, ValueTable(path, of_atoms)).first->second;
+  };
+  for (const std::string& path : files.all()) {
+    if (!is_pattern(path)) table_of(path);  // a wrong table is found at once
+  }
   Field field{kind.quantity, "", "", nullptr};
-  field.make = [source, target](const Molecule& molecule, FieldSide side) {
-    return (side == FieldSide::kSource ? source : target)->values_of(molecule, side);
+  field.make = [files, tables, of_atoms, table_of](const Molecule& molecule, const FieldSide& side) {
+    const std::vector<FieldFile> own = files.own_with_sum(side);
+    StateField of_state = own.empty() ? table_of(files.of(side)).values_of(molecule, side)
+                                      : ValueTable(own.front().path, of_atoms).values_of(molecule, side);
+    of_state.files = own;
+    return of_state;
   };
   field.files = files.with_sums();
   return field;

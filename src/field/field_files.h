@@ -9,19 +9,27 @@
 
 namespace espdiff {
 
-/// "FILE" or "SOURCE_FILE,TARGET_FILE".
+/// "FILE" or "SOURCE_FILE,TARGET_FILE"; the names may have places that each variant or frame fills; see fill_pattern().
 class SideFiles {
  public:
   /// @throws InputError (no file, more than two)
   SideFiles(const std::string& kind, const std::string& argument);
-  const std::string& of(FieldSide side) const;
-  bool is_one() const { return target_.empty(); }
+  /// The file of a state. @throws InputError (two files for one of many states; as fill_pattern())
+  std::string of(const FieldSide& side) const;
+  /// The same where each state needs a file of its own, as it does of a map.
+  /// @throws InputError (a file that variants or frames would share)
+  std::string own_of(const FieldSide& side) const;
   std::vector<std::string> all() const;
-  /// With their SHA-256. @throws IoError
+  /// Of the files that states share, with their SHA-256. @throws IoError
   std::vector<FieldFile> with_sums() const;
+  /// The file of a state, if no other one shares it. @throws IoError
+  std::vector<FieldFile> own_with_sum(const FieldSide& side) const;
 
  private:
-  std::string source_, target_;
+  const std::string& pattern_of(const FieldSide& side) const;
+  std::string what() const;
+
+  std::string kind_, source_, target_;
 };
 
 /// Values of residues or of atoms from a table, by chain, number and insertion code, and for atoms by name.
@@ -34,7 +42,7 @@ class ValueTable {
 
   /// The values of a molecule's atoms, NaN where the table has none, with notes on what does not match.
   /// @throws InputError if nothing matches
-  StateField values_of(const Molecule& molecule, FieldSide side) const;
+  StateField values_of(const Molecule& molecule, const FieldSide& side) const;
 
  private:
   struct Entry {

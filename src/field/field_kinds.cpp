@@ -83,8 +83,12 @@ std::vector<FieldRequest> parse_fields(const std::string& text) {
   return requests;
 }
 
-void check_fields(const std::vector<FieldRequest>& requests) {
+void check_fields(const std::vector<FieldRequest>& requests, const std::vector<std::string>& taken) {
   for (std::size_t i = 0; i < requests.size(); ++i) {
+    if (std::find(taken.begin(), taken.end(), requests[i].name) != taken.end())
+      throw InputError(option("field") + ": the patch '" + requests[i].name +
+                       "' has that name, too, and columns would mix them up; name the field, as in " +
+                       option("field", "other=" + requests[i].what));
     for (std::size_t j = 0; j < i; ++j) {
       if (requests[i].name != requests[j].name) continue;
       throw InputError(option("field") + ": two fields are called '" + requests[i].name +
@@ -103,6 +107,12 @@ std::vector<Field> make_fields(const std::vector<FieldRequest>& requests) {
     fields.push_back(std::move(field));
   }
   return fields;
+}
+
+std::vector<FieldDescription> describe(const std::vector<Field>& fields) {
+  std::vector<FieldDescription> all;
+  for (const Field& field : fields) all.push_back({field.quantity, field.what, field.reference, field.files});
+  return all;
 }
 
 std::vector<std::string> files_of(const FieldRequest& request) {

@@ -16,11 +16,14 @@ const std::vector<FieldKind>& field_kinds();
 /// @throws InputError (form, name, no such kind)
 std::vector<FieldRequest> parse_fields(const std::string& text);
 
-/// @throws InputError (a name twice)
-void check_fields(const std::vector<FieldRequest>& requests);
+/// @param taken names of patches, beside which columns stand
+/// @throws InputError (a name twice, or taken)
+void check_fields(const std::vector<FieldRequest>& requests, const std::vector<std::string>& taken = {});
 
 /// Makes the fields; reads their files. @throws InputError, IoError, FormatError
 std::vector<Field> make_fields(const std::vector<FieldRequest>& requests);
+
+std::vector<FieldDescription> describe(const std::vector<Field>& fields);
 
 /// The files that a request names. @returns none for kinds that read none
 std::vector<std::string> files_of(const FieldRequest& request);

@@ -26,6 +26,14 @@ struct FieldFile {
   std::string path, sha256;
 };
 
+/// What a field is, and where its values come from.
+struct FieldDescription {
+  Quantity quantity;
+  std::string what;              ///< KIND or KIND:ARGUMENT
+  std::string reference;         ///< of its values
+  std::vector<FieldFile> files;  ///< that all states share
+};
+
 /// A field's part of a comparison's result.
 struct FieldResult {
   Quantity quantity;

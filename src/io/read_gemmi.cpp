@@ -35,11 +35,20 @@ struct ChosenAtom {
 
 float occupancy(const gemmi::Atom& atom) { return std::isfinite(atom.occ) ? atom.occ : 0.0F; }
 
-/// Residues of different name at one place (a mutation in part of the crystal): every atom of theirs has a location.
+/// Residues of different name at one place (a mutation in part of the crystal): every atom of theirs has a location, or
+/// those of one, where the other has locations of the same names, and the atoms that they share (as 1EJG's PRO/SER 22).
 bool are_alternatives(const gemmi::Residue& a, const gemmi::Residue& b) {
+  if (a.seqid != b.seqid) return false;
   const auto has_location = [](const gemmi::Atom& atom) { return atom.has_altloc(); };
-  return a.seqid == b.seqid && std::all_of(a.atoms.begin(), a.atoms.end(), has_location) &&
-         std::all_of(b.atoms.begin(), b.atoms.end(), has_location);
+  const auto are_located = [&](const gemmi::Residue& residue) {
+    return std::all_of(residue.atoms.begin(), residue.atoms.end(), has_location);
+  };
+  if (are_located(a) && are_located(b)) return true;
+  return (are_located(a) || are_located(b)) && std::any_of(a.atoms.begin(), a.atoms.end(), [&](const gemmi::Atom& own) {
+           return own.has_altloc() && std::any_of(b.atoms.begin(), b.atoms.end(), [&](const gemmi::Atom& other) {
+                    return other.has_altloc() && other.name == own.name;
+                  });
+         });
 }
 
 /// The location of highest mean occupancy among residues [begin, end), the first on ties; '\0' when there is none.
@@ -91,6 +100,26 @@ void choose_atoms(std::size_t copy, const gemmi::Chain& chain, const gemmi::Resi
   }
 }
 
+/// Of residues at one place the one with the best location, and the atoms without one that the others hold for all.
+void choose_residue(std::size_t copy, const gemmi::Chain& chain, const gemmi::Residue* begin, const gemmi::Residue* end,
+                    char best, std::vector<ChosenAtom>& chosen) {
+  const auto has_best = [best](const gemmi::Residue& residue) {
+    return std::any_of(residue.atoms.begin(), residue.atoms.end(),
+                       [best](const gemmi::Atom& atom) { return atom.altloc == best; });
+  };
+  const gemmi::Residue* const kept = end - begin > 1 ? std::find_if(begin, end, has_best) : begin;
+  for (const gemmi::Residue* residue = begin; residue != end; ++residue) {
+    if (residue == kept) {
+      choose_atoms(copy, chain, *kept, best, chosen);
+      continue;
+    }
+    for (const gemmi::Atom& atom : residue->atoms) {
+      if (!atom.has_altloc() && kept->find_atom(atom.name, '*') == nullptr)
+        chosen.push_back({copy, &chain, kept, &atom});
+    }
+  }
+}
+
 /// One conformation of the model, by serial number, which is file order (gemmi gathers the atoms of a chain's residue).
 /// The chains of an assembly follow each other instead: their copies share serial numbers.
 std::vector<ChosenAtom> choose_conformation(const gemmi::Model& model, bool is_assembly) {
@@ -102,12 +131,8 @@ std::vector<ChosenAtom> choose_conformation(const gemmi::Model& model, bool is_a
       const gemmi::Residue* group_end = begin + 1;
       while (group_end != end && are_alternatives(*begin, *group_end)) ++group_end;
       const char best = best_location(begin, group_end);
-      const bool only_one = group_end - begin > 1;
-      for (; begin != group_end; ++begin) {
-        const bool has_best = std::any_of(begin->atoms.begin(), begin->atoms.end(),
-                                          [&](const gemmi::Atom& atom) { return atom.altloc == best; });
-        if (!only_one || has_best) choose_atoms(copy, chain, *begin, best, chosen);
-      }
+      choose_residue(copy, chain, begin, group_end, best, chosen);
+      begin = group_end;
     }
   }
   std::stable_sort(chosen.begin(), chosen.end(), [](const ChosenAtom& a, const ChosenAtom& b) {
@@ -317,10 +342,13 @@ Molecule read_pdb(const std::string& path, const AtomModel& model, const std::st
   if (is_assembly && !structure.models.empty())
     build_assembly(path, structure, options.assembly, check_biomt(path, remarks, options.assembly),
                    structure.models.front());
+  const auto line_of = [&](const gemmi::Atom& atom) -> const AtomLine& {
+    return checked.lines.at(static_cast<std::size_t>(atom.serial) - 1);
+  };
   for (const ChosenAtom& chosen : choose_conformation(structure.models.front(), is_assembly)) {
-    const AtomLine& line = checked.lines.at(static_cast<std::size_t>(chosen.atom->serial) - 1);
+    const AtomLine& line = line_of(*chosen.atom);
     AtomEntry entry = make_entry(chosen);
-    entry.residue_name = pdb_residue_name(line);
+    entry.residue_name = pdb_residue_name(line_of(chosen.residue->atoms.front()));
     if (!is_assembly) entry.chain = pdb_chain_name(line);
     entry.hetero = line.is_hetatm();
     entry.line = line.number;

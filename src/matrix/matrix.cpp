@@ -23,7 +23,7 @@
 namespace espdiff {
 namespace {
 
-std::vector<Metric> make_metrics(const std::vector<std::string>& parts) {
+std::vector<Metric> make_metrics(const PartsAndFields& compared) {
   std::vector<Metric> all;
   const auto add = [&](const std::vector<Metric>& some) {
     for (const Metric& metric : some) {
@@ -31,7 +31,8 @@ std::vector<Metric> make_metrics(const std::vector<std::string>& parts) {
     }
   };
   add(metrics());
-  for (const std::string& part : parts) add(part_metrics(part));
+  for (const std::string& part : compared.parts) add(part_metrics(part));
+  add(all_field_metrics(compared));
   return all;
 }
 
@@ -39,14 +40,14 @@ MatrixCell cell_of(const MatrixPair& pair, const CompareResult& result) {
   MatrixCell cell;
   cell.source = pair.first;
   cell.target = pair.second;
-  const std::vector<std::string> parts = part_names(result);
-  for (const Metric& metric : matrix_metrics(parts)) {
+  const PartsAndFields compared = parts_and_fields(result);
+  for (const Metric& metric : matrix_metrics(compared)) {
     const double value = value_of(metric, result);
     cell.values.push_back(std::isfinite(value) ? value : kNaN);
   }
   cell.converged = result.certificate.converged;
   cell.trustworthy = result.certificate.trustworthy;
-  for (const std::string& part : parts)
+  for (const std::string& part : compared.parts)
     cell.parts_trustworthy.push_back(part_of(result, part)->certificate.trustworthy ? 1 : 0);
   for (const Message& reason : result.certificate.reasons) cell.reasons.push_back(reason.plain());
   for (const Warning& warning : result.warnings) {
@@ -55,18 +56,18 @@ MatrixCell cell_of(const MatrixPair& pair, const CompareResult& result) {
   return cell;
 }
 
-MatrixCell failed_cell(const MatrixPair& pair, const std::string& error, const std::vector<std::string>& parts) {
+MatrixCell failed_cell(const MatrixPair& pair, const std::string& error, const PartsAndFields& compared) {
   MatrixCell cell;
   cell.source = pair.first;
   cell.target = pair.second;
-  cell.values.assign(matrix_metrics(parts).size(), kNaN);
-  cell.parts_trustworthy.assign(parts.size(), 0);
+  cell.values.assign(matrix_metrics(compared).size(), kNaN);
+  cell.parts_trustworthy.assign(compared.parts.size(), 0);
   cell.error = error;
   return cell;
 }
 
 CompareInput input_of(const Variant& variant, const Molecule& molecule) {
-  return {&molecule, variant.map ? &*variant.map : nullptr, variant.make_map, variant.parts};
+  return {&molecule, variant.map ? &*variant.map : nullptr, variant.make_map, variant.parts, variant.fields};
 }
 
 Molecule with_element_radii(Molecule molecule) {
@@ -107,18 +108,18 @@ class SourceOfPairs {
 
 }  // namespace
 
-const std::vector<Metric>& matrix_metrics(const std::vector<std::string>& parts) {
+const std::vector<Metric>& matrix_metrics(const PartsAndFields& compared) {
   static std::mutex one_at_a_time;
-  static std::map<std::vector<std::string>, std::vector<Metric>> known;
+  static std::map<PartsAndFields, std::vector<Metric>> known;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
-  std::vector<Metric>& all = known[parts];
-  if (all.empty()) all = make_metrics(parts);
+  std::vector<Metric>& all = known[compared];
+  if (all.empty()) all = make_metrics(compared);
   return all;
 }
 
-std::size_t find_metric(const std::string& name, const std::vector<std::string>& parts) {
+std::size_t find_metric(const std::string& name, const PartsAndFields& compared) {
   std::string list;
-  const std::vector<Metric>& all = matrix_metrics(parts);
+  const std::vector<Metric>& all = matrix_metrics(compared);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].name == name) return i;
     list += (list.empty() ? "" : ", ") + std::string(all[i].name);
@@ -156,6 +157,7 @@ void compute_pairs(Engine& engine, const std::vector<Variant>& variants, const C
                    const std::function<void(const MatrixCell&)>& done, const Progress& progress) {
   std::optional<SourceOfPairs> prepared;
   std::size_t number = variants.size();
+  const PartsAndFields compared = parts_and_fields(options);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const Variant &source = variants.at(pairs[p].first), &target = variants.at(pairs[p].second);
     const std::string name = source.label + " to " + target.label;
@@ -172,7 +174,7 @@ void compute_pairs(Engine& engine, const std::vector<Variant>& variants, const C
       throw;
     } catch (const Error& error) {
       if (!skip_errors) throw Error(error.error_class(), name + ": " + error.message());
-      cell = failed_cell(pairs[p], error.what(), part_names(options.input));
+      cell = failed_cell(pairs[p], error.what(), compared);
     }
     done(cell);
   }

@@ -15,11 +15,11 @@ namespace espdiff {
 
 struct CompareOptions;
 
-/// The metrics of a matrix, in the order of files. Those of a region and of patches follow all others.
-/// @param parts names as part_names() gives them
-const std::vector<Metric>& matrix_metrics(const std::vector<std::string>& parts = {});
+/// The metrics of a matrix, in the order of files. Those of a region and of patches follow all others, then those of
+/// fields.
+const std::vector<Metric>& matrix_metrics(const PartsAndFields& compared = {});
 /// The position of a metric. @throws InputError listing them
-std::size_t find_metric(const std::string& name, const std::vector<std::string>& parts = {});
+std::size_t find_metric(const std::string& name, const PartsAndFields& compared = {});
 
 /// One ordered pair: the source's surface mapped onto the target's.
 struct MatrixCell {

@@ -11,7 +11,9 @@
 #include "compare/options.h"
 #include "compare/settings.h"
 #include "engine/engine.h"
+#include "field/field_kinds.h"
 #include "matrix/plan_difference.h"
+#include "report/field_json.h"
 
 namespace espdiff {
 namespace {
@@ -28,6 +30,7 @@ std::string sha256_in(const MatrixPlan::Item& item, const std::string& role) {
 }  // namespace
 
 std::vector<std::string> MatrixPlan::parts() const { return part_names(settings); }
+PartsAndFields MatrixPlan::compared() const { return {parts(), quantities_of(fields)}; }
 
 MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                      const std::string& potential, const std::string& radii_note) {
@@ -35,12 +38,12 @@ MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants,
   if (variants.size() < 2 || variants.size() > kMaxVariants)
     throw InputError("a matrix of " + std::to_string(variants.size()) + " variant" + (variants.size() == 1 ? "" : "s") +
                      " was asked for; 2 to " + std::to_string(kMaxVariants) + " can be compared");
-  refuse_fields(options, "a matrix");
   MatrixPlan plan;
   plan.version = kVersion;
   plan.device = engine.back_end();
   plan.settings = setting_texts(options);
   plan.radii_note = radii_note;
+  plan.fields = describe(make_fields(options.fields));
   if (variants.front().has_potential()) {
     plan.potential = potential;
     plan.potential_unit = to_string(variants.front().map ? variants.front().map->unit : PotentialUnit::kKtPerE);
@@ -75,6 +78,7 @@ Json plan_json(const MatrixPlan& plan) {
       inputs.push_back({{"role", input.role}, {"path", input.path}, {"sha256", input.sha256}});
     json["variants"].push_back({{"label", item.label}, {"group", item.group}, {"inputs", std::move(inputs)}});
   }
+  if (!plan.fields.empty()) json["fields"] = fields_json(plan.fields);
   return json;
 }
 
@@ -93,6 +97,7 @@ MatrixPlan parse_plan(const std::string& text) {
       variant.inputs.push_back({input.at("role"), input.at("path"), input.at("sha256")});
     plan.variants.push_back(std::move(variant));
   }
+  if (json.contains("fields")) plan.fields = parse_fields_json(json["fields"]);
   return plan;
 }
 
@@ -111,6 +116,13 @@ std::string plan_difference(const MatrixPlan& there, const MatrixPlan& here) {
         first_of({differ("a setting's name", there.settings[i].first, here.settings[i].first),
                   differ("the setting " + here.settings[i].first, there.settings[i].second, here.settings[i].second)});
     if (!setting.empty()) return setting;
+  }
+  for (std::size_t f = 0; f < here.fields.size(); ++f) {  // as many: their names are a setting
+    const FieldDescription &a = there.fields.at(f), &b = here.fields[f];
+    for (std::size_t k = 0; k < b.files.size(); ++k) {
+      if (a.files.size() != b.files.size() || a.files[k].sha256 != b.files[k].sha256)
+        return "the file of the field " + b.quantity.name + " has changed";
+    }
   }
   for (std::size_t i = 0; i < here.variants.size(); ++i) {
     const MatrixPlan::Item &a = there.variants[i], &b = here.variants[i];

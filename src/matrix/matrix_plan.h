@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "field/field_result.h"
 #include "matrix/matrix.h"
 
 namespace espdiff {
@@ -23,9 +24,12 @@ struct MatrixPlan {
   std::string potential_unit;                                 ///< empty for none
   std::string radii_note;                                     ///< why all radii were replaced; may be empty
   std::vector<Item> variants;
+  std::vector<FieldDescription> fields{};  ///< besides the potential
 
   /// Region and patches of the pairs, by the settings; see part_names(). @throws InputError (damaged settings)
   std::vector<std::string> parts() const;
+  /// With the fields.
+  PartsAndFields compared() const;
 };
 
 /// @param potential  description: "maps", or "pme, grid 0.5, Ewald factor 0.25"; ignored if no variant has a map

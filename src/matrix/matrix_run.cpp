@@ -67,8 +67,8 @@ void check_matrix_files(const MatrixRun& run, const std::vector<Variant>& varian
   check_outputs(inputs, output_paths(run));
 }
 
-void check_results(const MatrixRun& run, bool may_replace, const std::vector<std::string>& parts) {
-  if (!run.cluster_by.empty()) find_metric(run.cluster_by, parts);
+void check_results(const MatrixRun& run, bool may_replace, const PartsAndFields& compared) {
+  if (!run.cluster_by.empty()) find_metric(run.cluster_by, compared);
   for (const char* ending : {".csv", ".json"}) {
     if (!may_replace && fs::exists(run.output + ending))
       throw InputError("the result " + run.output + ending + " exists, of a run that is complete; " +
@@ -77,7 +77,7 @@ void check_results(const MatrixRun& run, bool may_replace, const std::vector<std
   }
 }
 
-void check_existing(const MatrixRun& run, bool has_parts, const std::vector<std::string>& parts) {
+void check_existing(const MatrixRun& run, bool has_parts, const PartsAndFields& compared) {
   if (run.resume && run.overwrite)
     throw InputError(option("resume") + " and " + option("overwrite") + " exclude each other; leave one out");
   const std::string state = state_path(run.output, run.shard);
@@ -85,7 +85,7 @@ void check_existing(const MatrixRun& run, bool has_parts, const std::vector<std:
     throw InputError("the state file " + state + " of an earlier run exists; " + switched_on("resume") +
                      " goes on with it, " + switched_on("overwrite") + " begins anew");
   // A shard's results come with the merge.
-  if (run.shard.count == 1) check_results(run, run.overwrite || (run.resume && has_parts), parts);
+  if (run.shard.count == 1) check_results(run, run.overwrite || (run.resume && has_parts), compared);
 }
 
 void finish_matrix(const MatrixRun& run, Matrix matrix, MatrixReport& report) {
@@ -138,7 +138,7 @@ std::vector<MatrixCell> compute_and_keep(Engine& engine, const std::vector<Varia
 MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                         const MatrixRun& run, const Progress& progress) {
   check_matrix_files(run, variants);
-  check_existing(run, fs::exists(state_path(run.output, run.shard)), part_names(options.input));
+  check_existing(run, fs::exists(state_path(run.output, run.shard)), parts_and_fields(options));
   if (options.offsets_A.size() > 1)
     throw InputError(option("offset") +
                      ": a list of distances was given, and a matrix has one value of a metric for a pair; give one");
@@ -159,7 +159,7 @@ MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, co
 }
 
 std::size_t metric_to_cluster_by(const MatrixRun& run, const Matrix& matrix) {
-  return run.cluster_by.empty() ? usual_metric(matrix) : find_metric(run.cluster_by, matrix.plan.parts());
+  return run.cluster_by.empty() ? usual_metric(matrix) : find_metric(run.cluster_by, matrix.plan.compared());
 }
 
 MatrixReport merge_matrix(const std::vector<std::string>& state_paths, const MatrixRun& run) {
@@ -176,7 +176,7 @@ MatrixReport merge_matrix(const std::vector<std::string>& state_paths, const Mat
       throw InputError(path + ": this is a part of another matrix than " + state_paths.front() + ": " + difference);
     cells.insert(cells.end(), part.cells.begin(), part.cells.end());
   }
-  check_results(run, run.overwrite, plan.parts());
+  check_results(run, run.overwrite, plan.compared());
   MatrixReport report;
   report.n_pairs = report.n_resumed = cells.size();
   finish_matrix(run, assemble(plan, cells, "resume the shard that lacks them, or name its state file too"), report);

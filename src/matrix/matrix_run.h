@@ -53,12 +53,12 @@ std::string part_path(const std::string& output_prefix, const Shard& shard, cons
 std::string state_path(const std::string& output_prefix, const Shard& shard);
 
 /// Refuses to replace results that are there. @param may_replace whether they may be replaced. @throws InputError
-void check_results(const MatrixRun& run, bool may_replace, const std::vector<std::string>& parts);
+void check_results(const MatrixRun& run, bool may_replace, const PartsAndFields& compared);
 
 /// Refuses a run that would replace results or state files, before the work.
 /// @param has_parts whether there is something that `resume` goes on with
 /// @throws InputError
-void check_existing(const MatrixRun& run, bool has_parts, const std::vector<std::string>& parts);
+void check_existing(const MatrixRun& run, bool has_parts, const PartsAndFields& compared);
 
 /// Computes those of `pairs` that the state file lacks, and keeps each there. `report` gets what was done.
 /// @returns all of them. @throws as run_matrix()

@@ -32,9 +32,10 @@ std::string sum_of(const std::string& before, const std::string& json) {
 
 std::string line_of(const std::string& sum, const std::string& json) { return sum + ' ' + json + '\n'; }
 
-std::string cell_json(const MatrixCell& cell, const std::vector<std::string>& parts) {
+std::string cell_json(const MatrixCell& cell, const PartsAndFields& compared) {
   Json values = Json::object();
-  const std::vector<Metric>& metrics = matrix_metrics(parts);
+  const std::vector<Metric>& metrics = matrix_metrics(compared);
+  const std::vector<std::string>& parts = compared.parts;
   for (std::size_t m = 0; m < cell.values.size(); ++m)
     values[metrics[m].name] = std::isfinite(cell.values[m]) ? Json(cell.values[m]) : Json(nullptr);
   Json json = {{"source", cell.source},       {"target", cell.target},           {"values", std::move(values)},
@@ -53,7 +54,7 @@ MatrixCell parse_cell(const std::string& text, const MatrixPlan& plan) {
   cell.target = integer_of<std::size_t>(json.at("target"));
   if (cell.source >= n_variants || cell.target >= n_variants || cell.source == cell.target)
     throw std::out_of_range("pair");
-  for (const Metric& metric : matrix_metrics(plan.parts())) {
+  for (const Metric& metric : matrix_metrics(plan.compared())) {
     const Json& value = json.at("values").at(metric.name);
     cell.values.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>());
   }
@@ -162,7 +163,7 @@ MatrixState MatrixState::begin(const std::string& path, const MatrixPlan& plan) 
   file.stream() << kTag << line_of(sum, json);
   file.commit();
   MatrixState state(path, sum);
-  state.parts_ = plan.parts();
+  state.compared_ = plan.compared();
   return state;
 }
 
@@ -177,13 +178,13 @@ MatrixState MatrixState::go_on(const std::string& path, const MatrixPlan& plan, 
   std::error_code error;
   if (content.cut_off) std::filesystem::resize_file(path, content.n_good_bytes, error);
   if (error) throw IoError(path, "the incomplete last row cannot be taken away: " + system_message(error.value()));
-  state.parts_ = plan.parts();
+  state.compared_ = plan.compared();
   state.sum_ = last_sum(read_all(path), content.n_good_bytes);
   return state;
 }
 
 void MatrixState::add(const MatrixCell& cell) {
-  const std::string json = cell_json(cell, parts_);
+  const std::string json = cell_json(cell, compared_);
   sum_ = sum_of(sum_, json);
   const std::string line = line_of(sum_, json);
   const int error = file_.write(line.data(), line.size());

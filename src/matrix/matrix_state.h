@@ -41,8 +41,8 @@ class MatrixState {
   MatrixState(std::string path, std::string sum);
 
   std::string path_;
-  std::string sum_;                 ///< of all lines
-  std::vector<std::string> parts_;  ///< MatrixPlan::parts()
+  std::string sum_;          ///< of all lines
+  PartsAndFields compared_;  ///< MatrixPlan::compared()
   OpenFile file_;
 };
 

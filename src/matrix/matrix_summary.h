@@ -18,7 +18,7 @@ struct Matrix {
   std::optional<ThroughTemplate> through{};  ///< absent where each pair was compared by itself
 
   std::size_t n() const { return plan.variants.size(); }
-  const std::vector<Metric>& metrics() const { return matrix_metrics(plan.parts()); }
+  const std::vector<Metric>& metrics() const { return matrix_metrics(plan.compared()); }
   /// Whether its cells have the metric at all; without potentials some have no value nevertheless.
   bool gives(std::size_t metric) const { return !through || is_given_by_template(metrics()[metric]); }
   /// @param source, target different

@@ -51,8 +51,10 @@ std::string percent(double fraction) {
 /// Of the column of labels, which those of a region or patch make wider.
 int label_width(const Matrix& matrix) {
   std::size_t longest = 0;
-  for (const std::string& part : matrix.plan.parts())
-    longest = std::max(longest, std::string(", ").size() + part.size());
+  const PartsAndFields compared = matrix.plan.compared();
+  for (const std::string& part : compared.parts) longest = std::max(longest, std::string(", ").size() + part.size());
+  for (const Quantity& field : compared.fields)
+    longest = std::max(longest, std::string(", ").size() + field.name.size());
   return 30 + static_cast<int>(longest);
 }
 

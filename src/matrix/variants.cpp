@@ -9,6 +9,9 @@
 #include "base/earlier_patch.h"
 #include "base/error.h"
 #include "base/input_options.h"
+#include "compare/compare_fields.h"
+#include "compare/options.h"
+#include "field/field_kinds.h"
 #include "io/read_csv.h"
 #include "io/structure_file.h"
 #include "io/text_cursor.h"
@@ -168,6 +171,25 @@ void set_parts(std::vector<Variant>& variants, const std::vector<const Molecule*
     for (const SurfacePatch& patch : variants[i].parts.patches) {
       if (patch.earlier != nullptr)
         variants[i].inputs.push_back({"patch " + patch.name, patch.earlier->path, patch.earlier->sha256, {}, {}});
+    }
+  }
+}
+
+void set_fields(std::vector<Variant>& variants, const CompareOptions& options) {
+  if (options.fields.empty()) return;
+  const std::vector<Field> fields = make_fields(options.fields);
+  for (Variant& variant : variants) {
+    variant.fields.label = variant.label;
+    variant.fields.group = variant.group;
+    try {
+      variant.fields.made = std::make_shared<const StateFields>(
+          make_state_fields(fields, variant.molecule, {FieldSide::kVariant, variant.fields}));
+    } catch (const InputError& error) {
+      throw InputError(variant.label + ": " + error.message());
+    }
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      for (const FieldFile& file : (*variant.fields.made)[f].files)
+        variant.inputs.push_back({"field " + fields[f].quantity.name, file.path, file.sha256, {}, {}});
     }
   }
 }

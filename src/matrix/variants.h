@@ -14,6 +14,7 @@
 
 namespace espdiff {
 
+struct CompareOptions;
 struct InputOptions;
 
 /// One molecule of a matrix and its potential.
@@ -26,6 +27,7 @@ struct Variant {
   MapMaker make_map = nullptr;  ///< instead of `map`; in kT/e
   SurfaceParts parts{};         ///< as the source of a pair
   StateOrigin origin{};         ///< for the warnings of its cells
+  FieldInput fields{};          ///< see set_fields()
 
   bool has_potential() const { return map || make_map != nullptr; }
 };
@@ -66,6 +68,11 @@ void check_labels(const std::vector<std::string>& labels);
 /// @param wholes [variant] the atoms of its file before the selection; of molecules in no file, the molecule
 /// @throws as region_residues()
 void set_parts(std::vector<Variant>& variants, const std::vector<const Molecule*>& wholes, const InputOptions& options);
+
+/// Makes the fields of each variant before the work, so that one without is refused at once, and notes the files that
+/// it alone has as its inputs.
+/// @throws InputError naming the variant and the field, IoError, FormatError
+void set_fields(std::vector<Variant>& variants, const CompareOptions& options);
 
 /// Converts all maps to the unit of the first one.
 /// @throws InputError if only some variants have maps, or only some units are unknown

@@ -156,6 +156,7 @@ Json matrix_json(const Matrix& matrix, std::size_t metric) {
   for (const char* key : {"version", "device", "potential", "potential_unit", "radii_note"}) json[key] = plan[key];
   json["options"] = options_json(matrix.plan.settings);
   json["variants"] = plan["variants"];
+  if (plan.contains("fields")) json["fields"] = plan["fields"];
   if (matrix.through) json["template"] = through_template_json(matrix);
   for (std::size_t m = 0; m < matrix.metrics().size(); ++m) {
     if (matrix.gives(m)) json["metrics"][matrix.metrics()[m].name] = metric_json(matrix, m);

@@ -22,13 +22,13 @@ namespace espdiff {
 /// @throws IoError
 std::vector<std::string> write_matrix(const std::string& output_prefix, const Matrix& matrix, std::size_t metric);
 
-/// Keys: version, device, potential, potential_unit, options (options_json()), variants (label, group, inputs); of a
-/// matrix through a template `template` (through_template_json()), and only the metrics that it gives; metrics, by
-/// name: title, unit, values [source][target], null on the diagonal and for missing values; trustworthy,
-/// PART_trustworthy (of a region and of patches), converged [source][target]; not_trustworthy (source, target,
-/// reasons), errors; asymmetry by metric; groups by metric (absent without groups); clustering (metric, linkage, merges
-/// [left, right, distance, number of variants], order); hodgkin: the clustering by Hodgkin's index and the correlation
-/// of its distances with those of `metric` (null without potentials).
+/// Keys: version, device, potential, potential_unit, options (options_json()), variants (label, group, inputs); fields
+/// (what each is; absent without); of a matrix through a template `template` (through_template_json()), and only the
+/// metrics that it gives; metrics, by name: title, unit, values [source][target], null on the diagonal and for missing
+/// values; trustworthy, PART_trustworthy (of a region and of patches), converged [source][target]; not_trustworthy
+/// (source, target, reasons), errors; asymmetry by metric; groups by metric (absent without groups); clustering
+/// (metric, linkage, merges [left, right, distance, number of variants], order); hodgkin: the clustering by Hodgkin's
+/// index and the correlation of its distances with those of `metric` (null without potentials).
 nlohmann::ordered_json matrix_json(const Matrix& matrix, std::size_t metric);
 
 /// Prints range, asymmetry, nearest and farthest pair, groups, and pairs that are not trustworthy; at most 100 columns.

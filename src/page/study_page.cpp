@@ -14,6 +14,7 @@
 #include "page/assembled_page.h"
 #include "page/page_arrays.h"
 #include "plot/automatic_range.h"
+#include "report/field_json.h"
 #include "report/metrics.h"
 
 namespace espdiff {
@@ -40,13 +41,14 @@ std::string potential_unit_in(const CsvTable& table) {
 }
 
 /// Every column that is a metric and has a number, in the order of the file.
-StudyJson metric_columns(PageArrays& arrays, const CsvTable& table, const std::vector<std::size_t>& places,
-                         std::size_t n_places) {
+/// @param fields whose columns there are
+StudyJson metric_columns(PageArrays& arrays, const CsvTable& table, const std::vector<Quantity>& fields,
+                         const std::vector<std::size_t>& places, std::size_t n_places) {
   StudyJson list = StudyJson::array();
   const std::string unit = potential_unit_in(table);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    const Metric* const metric = find_metric_or_null(table.columns[c]);
-    if (metric == nullptr) continue;
+    const Metric* const metric = metric_of_column(table.columns[c], fields);
+    if (metric == nullptr || (*metric->part != '\0' && *metric->field == '\0')) continue;
     const ShownUnit shown = shown_unit(*metric, unit);
     std::vector<double> values(n_places, std::numeric_limits<double>::quiet_NaN());
     for (std::size_t row = 0; row < table.rows.size(); ++row) values[places[row]] = shown.factor * table.number(row, c);
@@ -130,6 +132,7 @@ void add_matrix(StudyJson& page, PageArrays& arrays, const std::string& prefix) 
     for (const StudyJson& input : variant.value("inputs", StudyJson::array()))
       provenance.push_back({"Input: " + label, input.value("path", "") + ", SHA-256 " + input.value("sha256", "")});
   }
+  const std::vector<Quantity> fields = quantities_of(parse_fields_json(record.value("fields", StudyJson::object())));
   const std::size_t n = labels.size();
   std::vector<std::size_t> places;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -140,7 +143,7 @@ void add_matrix(StudyJson& page, PageArrays& arrays, const std::string& prefix) 
   }
   page["labels"] = std::move(labels);
   page["order"] = clustered_order(record, position);
-  page["metrics"] = metric_columns(arrays, table, places, n * n);
+  page["metrics"] = metric_columns(arrays, table, fields, places, n * n);
   add_remarks(page, table, places, n * n);
   add_summary(page, "pairs");
   const StudyJson program = {"Program", "espdiff " + record.value("version", "")};
@@ -180,7 +183,7 @@ StudyJson residue_rows(PageArrays& arrays, const std::string& path, const std::v
   json["signed"] = std::any_of(values.begin(), values.end(), [](double x) { return x < 0; });
   json["range"] = automatic_limit({values.begin(), values.end()});
   const std::size_t bracket = label.find(" [");
-  const Metric* const metric = find_metric_or_null(label.substr(0, bracket));
+  const Metric* const metric = metric_of_column(label.substr(0, bracket));
   if (metric != nullptr) label = metric->label + (bracket == std::string::npos ? "" : label.substr(bracket));
   json["label"] = label;
   json["names"] = std::move(names);
@@ -198,7 +201,7 @@ void add_trajectory(StudyJson& page, PageArrays& arrays, const std::string& pref
     frames.push_back(table.rows[row][frame]);
   }
   page["labels"] = frames;
-  page["metrics"] = metric_columns(arrays, table, places, places.size());
+  page["metrics"] = metric_columns(arrays, table, fields_in_head(table.comments), places, places.size());
   add_remarks(page, table, places, places.size());
   add_summary(page, "frames");
   page["residues"] = residue_rows(arrays, prefix + ".residues.csv", frames);

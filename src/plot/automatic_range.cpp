@@ -17,6 +17,18 @@ double round_up_nicely(double value) {
   return 10 * power;
 }
 
+namespace {
+
+/// Values that are zero, or nearly: less than a thousandth of the greatest.
+void leave_out_zeros_if_most(std::vector<float>& magnitudes) {
+  const float least = *std::max_element(magnitudes.begin(), magnitudes.end()) / 1000;
+  const auto end = std::partition(magnitudes.begin(), magnitudes.end(), [least](float value) { return value > least; });
+  if (end != magnitudes.begin() && 2 * (end - magnitudes.begin()) < magnitudes.end() - magnitudes.begin())
+    magnitudes.erase(end, magnitudes.end());
+}
+
+}  // namespace
+
 double automatic_limit(const std::vector<float>& values, double percentile) {
   std::vector<float> magnitudes;
   magnitudes.reserve(values.size());
@@ -24,6 +36,7 @@ double automatic_limit(const std::vector<float>& values, double percentile) {
     if (std::isfinite(value)) magnitudes.push_back(std::abs(value));
   }
   if (magnitudes.empty()) return 1;
+  leave_out_zeros_if_most(magnitudes);
   const auto rank = static_cast<std::ptrdiff_t>(percentile / 100 * static_cast<double>(magnitudes.size() - 1));
   std::nth_element(magnitudes.begin(), magnitudes.begin() + rank, magnitudes.end());
   return round_up_nicely(magnitudes[static_cast<std::size_t>(rank)]);

@@ -14,6 +14,8 @@ inline constexpr double kAutomaticPercentile = 90;
 double round_up_nicely(double value);
 
 /// The magnitude that `percentile` per cent of the finite values do not exceed, rounded up nicely; 1 if there are none.
+/// Where more than half of them are below a thousandth of the greatest, such as aromatic rings' away from rings, only
+/// the others count.
 /// @param percentile 50 to 100
 double automatic_limit(const std::vector<float>& values, double percentile = kAutomaticPercentile);
 

@@ -59,14 +59,15 @@ std::string PotentialPlan::in_words() const {
   return potential_in_words(*options_) + unusual_cell_;
 }
 
+Molecule without_salt(const Molecule& molecule) {
+  std::vector<bool> keep = salt_ions(molecule);
+  keep.flip();
+  return keep_atoms(molecule, keep);
+}
+
 ComputedMap PotentialPlan::map_of(const LoadedState& state) const {
   if (!own_cell_) {
-    Molecule solute = state.molecule;
-    if (replaces_water_) {
-      std::vector<bool> keep = salt_ions(solute);
-      keep.flip();
-      solute = keep_atoms(solute, keep);
-    }
+    Molecule solute = replaces_water_ ? without_salt(state.molecule) : state.molecule;
     std::vector<Vec3d> positions = solute.positions;
     return {std::move(solute), {std::nullopt, std::move(positions), false}, *options_};
   }

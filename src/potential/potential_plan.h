@@ -33,6 +33,9 @@ PotentialFacts facts_of(const LoadedState& state);
 /// The reason of a choice; where no potential is computed for lack of charges, also what would assign some.
 std::string reason_in_full(const PotentialChoice& choice);
 
+/// The atoms besides salt_ions(), which a continuum stands for where it takes the place of explicit water.
+Molecule without_salt(const Molecule& molecule);
+
 /// How the potentials of all sides are computed; nothing where none are.
 class PotentialPlan {
  public:

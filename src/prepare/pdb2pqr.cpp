@@ -13,6 +13,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "align/chain_links.h"
 #include "align/protonation.h"
 #include "align/residue_names.h"
 #include "base/error.h"
@@ -40,8 +41,6 @@ namespace {
 constexpr double kTimeLimitSeconds = 3600;
 /// Of the file it writes: a line for each of the most atoms that are read.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{512} << 20;
-
-bool is_polymer(ResidueKind kind) { return kind == ResidueKind::kAminoAcid || kind == ResidueKind::kNucleotide; }
 
 /// Chains with one character for PDB2PQR, and numbers that fit its columns.
 class Renumbering {

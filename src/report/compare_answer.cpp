@@ -87,32 +87,70 @@ void print_main_numbers(std::ostream& out, const Record& record) {
     print_brief_part(out, "Patch " + name, patch, record);
 }
 
-void print_basis(std::ostream& out, const Record& record) {
-  const auto line = [&](const std::string& label, const std::string& text) {
-    if (!text.empty()) print_wrapped(out, text, label, kBasisWidth, 2);
-  };
-  line("Source", record.text("/names/source"));
-  line("Target", record.text("/names/target"));
-  if (record.count("/n_paired_atoms") > 0) {
-    const Metric& rmsd = *find_metric_or_null("rmsd_A");
-    line("Paired", paired_in_words(record) + "; RMSD " + formatted(rmsd, record.value_of(rmsd)) + " A");
-  } else {
-    line("Paired", "no atoms; compared where they lie");
+using Lines = std::vector<std::pair<std::string, std::string>>;
+
+/// The record's notes, those without a label behind the one that they continue.
+Lines joined_notes(const Record& record) {
+  Lines lines;
+  for (const Json& json : record.at("/notes")) {
+    const Record note(json);
+    if (note.text("/label").empty() && !lines.empty()) {
+      lines.back().second += "; " + note.text("/text");
+    } else {
+      lines.emplace_back(note.text("/label"), note.text("/text"));
+    }
   }
-  for (const auto& [label, text] : chains_in_words(record)) line(label, text);
-  if (record.has_potential()) {
-    line("Potential", record.has("/potential") ? record.text("/potential/label") : "of the given maps");
-  } else {
-    line("Shapes alone", record.text("/shapes_because"));
+  return lines;
+}
+
+/// Both states, each with where its charges are from; these notes are taken away.
+Lines states_in_words(const Record& record, Lines& notes) {
+  Lines lines = {{"Source", record.text("/names/source")}, {"Target", record.text("/names/target")}};
+  for (const auto& [label, text] : notes) {
+    const std::string added = (text.rfind("of ", 0) == 0 ? "; charges " : "; ") + text;  // of a file, by a program
+    if (label == "Charges, source") lines[0].second += added;
+    if (label == "Charges, target") lines[1].second += added;
   }
-  for (const Json& note : record.at("/notes")) line(Record(note).text("/label"), Record(note).text("/text"));
-  std::string parts;
-  for (const std::string& part : record.texts("/certificate/untrusted_parts"))
-    parts += (parts.empty() ? "" : "; ") + part;
+  notes.erase(std::remove_if(notes.begin(), notes.end(),
+                             [](const auto& note) { return note.first.rfind("Charges, ", 0) == 0; }),
+              notes.end());
+  return lines;
+}
+
+std::string pairing_in_words(const Record& record) {
+  if (record.count("/n_paired_atoms") == 0) return "no atoms; compared where they lie";
+  const Metric& rmsd = *find_metric_or_null("rmsd_A");
+  return paired_in_words(record) + "; RMSD " + formatted(rmsd, record.value_of(rmsd)) + " A";
+}
+
+/// What is not trusted, of an answer on a part of the surface.
+std::string untrusted_in_words(const Record& record) {
   const double trusted = std::min(record.number("/certificate/trusted_area_fraction/source"),
                                   record.number("/certificate/trusted_area_fraction/target"));
-  line("Turned", turned_in_words(record));
-  if (record.flag("/certificate/trustworthy") && trusted < kWholeShare) line("Not trusted", parts);
+  std::string parts;
+  if (!record.flag("/certificate/trustworthy") || !(trusted < kWholeShare)) return parts;
+  for (const std::string& part : record.texts("/certificate/untrusted_parts"))
+    parts += (parts.empty() ? "" : "; ") + part;
+  return parts;
+}
+
+/// What the numbers rest on, in at most two lines each.
+void print_basis(std::ostream& out, const Record& record) {
+  Lines notes = joined_notes(record), lines = states_in_words(record, notes);
+  lines.emplace_back("Paired", pairing_in_words(record));
+  const Lines chains = chains_in_words(record);
+  lines.insert(lines.end(), chains.begin(), chains.end());
+  if (record.has_potential()) {
+    lines.emplace_back("Potential", record.has("/potential") ? record.text("/potential/label") : "of the given maps");
+  } else {
+    lines.emplace_back("Shapes alone", record.text("/shapes_because"));
+  }
+  lines.insert(lines.end(), notes.begin(), notes.end());
+  lines.emplace_back("Turned", turned_in_words(record));
+  lines.emplace_back("Not trusted", untrusted_in_words(record));
+  for (const auto& [label, text] : lines) {
+    if (!text.empty()) print_wrapped(out, text, label, kBasisWidth, 2);
+  }
 }
 
 void print_brief_causes(std::ostream& out, const Record& record) {
@@ -127,7 +165,7 @@ void print_brief_causes(std::ostream& out, const Record& record) {
 
 /// Those that refuse, or are few, in two lines each; of many one line each.
 void print_brief_warnings(std::ostream& out, const Record& record) {
-  constexpr std::size_t kMost = 8, kFew = 3;
+  constexpr std::size_t kMost = 5, kFew = 3;
   const std::vector<std::string> warnings = record.texts("/warnings");
   if (warnings.empty()) return;
   out << "\nWarnings\n";

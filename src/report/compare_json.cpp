@@ -12,6 +12,7 @@
 #include "compare/result.h"
 #include "compare/settings.h"
 #include "report/causes_report.h"
+#include "report/field_json.h"
 #include "report/json_number.h"
 #include "report/metrics.h"
 #include "report/placement.h"
@@ -57,15 +58,12 @@ void add_metrics(Json& json, const CompareResult& result) {
 
 /// Each field under its name: what it is, its metrics, and what is left out.
 /// @param part empty for the whole
-Json fields_json(const CompareResult& result, const std::string& part) {
+Json compared_fields_json(const CompareResult& result, const std::string& part) {
   Json json = Json::object();
   for (const FieldResult& field : result.fields) {
     Json& entry = json[field.quantity.name];
-    entry["label"] = field.quantity.label;
-    entry["unit"] = field.quantity.unit;
-    entry["signed"] = field.quantity.is_signed;
-    entry["kind"] = field.what;
-    entry["reference"] = field.reference;
+    entry = field_json(field.quantity, field.what, field.reference, field.files);
+    if (!part.empty()) entry.erase("files");
     Json all;
     for (const Metric& metric : field_metrics(field.quantity)) {
       if (!metric.has_result()) continue;
@@ -74,10 +72,8 @@ Json fields_json(const CompareResult& result, const std::string& part) {
       all[key] = json_number(value_over_all_triangles(metric, result));
     }
     entry["metrics_all_triangles"] = std::move(all);
-    if (!part.empty()) continue;
-    entry["files"] = Json::array();
-    for (const FieldFile& file : field.files) entry["files"].push_back({{"path", file.path}, {"sha256", file.sha256}});
-    entry["n_vertices_without_value"] = {{"source", field.n_missing_source}, {"target", field.n_missing_target}};
+    if (part.empty())
+      entry["n_vertices_without_value"] = {{"source", field.n_missing_source}, {"target", field.n_missing_target}};
   }
   return json;
 }
@@ -243,7 +239,7 @@ Json part_json(const CompareResult& part, const std::string& name, const OptionS
   json["residues"] = Json::array();
   for (const ResidueRow& row : part.residues) json["residues"].push_back(row.residue);
   add_metrics(json, part);
-  json["fields"] = fields_json(part, name);
+  json["fields"] = compared_fields_json(part, name);
   json["by_offset"] = Json::array();
   for (const OffsetMetrics& at : part.by_offset) {
     Json entry{{"offset_A", json_number(at.offset_A)}};
@@ -285,7 +281,7 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   const WholeSurface whole = whole_surface(result);
   json["whole_surface"] = {
       {"mean_abs_difference", {{"estimate", json_number(whole.estimate)}, {"at_most", json_number(whole.at_most)}}}};
-  json["fields"] = fields_json(result, "");
+  json["fields"] = compared_fields_json(result, "");
   json["region"] = result.region == nullptr ? Json(nullptr) : part_json(*result.region, kRegionPart, spelling);
   json["fixed_patches"] = Json::object();
   for (const PatchResult& patch : result.patches) {

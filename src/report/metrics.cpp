@@ -7,13 +7,17 @@
 #include <iterator>
 #include <map>
 #include <mutex>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/formatted.h"
 #include "base/not_a_number.h"
 #include "base/surface_parts.h"
+#include "compare/input_settings.h"
+#include "compare/options.h"
 #include "compare/region_result.h"
 #include "compare/result.h"
+#include "field/field_kinds.h"
 
 namespace espdiff {
 namespace {
@@ -336,7 +340,7 @@ std::vector<Metric> field_rows(bool is_signed) {
   using U = MetricUnit;
   constexpr unsigned kNowhere = 0, kBoth = kInSeries | kInMatrix;
   std::vector<Metric> rows = {
-      {"area_A2", "Area with values", S::kPotential, U::kSquareAngstrom, kNowhere,
+      {"area_A2", "Area with values", S::kPotential, U::kSquareAngstrom, kBoth,
        "Area of the mapped surface on which the numbers rest", &Metrics::area_A2},
       {"mean_abs_difference",
        "Mean absolute difference",
@@ -447,6 +451,38 @@ std::vector<Metric> residue_metrics(const CompareResult& result) {
   return all;
 }
 
+bool PartsAndFields::operator<(const PartsAndFields& other) const {
+  const auto key = [](const Quantity& q) { return std::tie(q.name, q.label, q.unit, q.is_signed); };
+  if (parts != other.parts) return parts < other.parts;
+  return std::lexicographical_compare(fields.begin(), fields.end(), other.fields.begin(), other.fields.end(),
+                                      [&](const Quantity& a, const Quantity& b) { return key(a) < key(b); });
+}
+
+PartsAndFields parts_and_fields(const CompareResult& result) {
+  PartsAndFields compared(part_names(result));
+  for (const FieldResult& field : result.fields) compared.fields.push_back(field.quantity);
+  return compared;
+}
+
+PartsAndFields parts_and_fields(const CompareOptions& options) {
+  PartsAndFields compared(part_names(options.input));
+  for (const Field& field : make_fields(options.fields)) compared.fields.push_back(field.quantity);
+  return compared;
+}
+
+std::vector<Metric> all_field_metrics(const PartsAndFields& compared) {
+  std::vector<Metric> all;
+  for (const Quantity& field : compared.fields) {
+    const auto add = [&](const std::string& part) {
+      const std::vector<Metric>& rows = field_metrics(field, part);
+      std::copy_if(rows.begin(), rows.end(), std::back_inserter(all), [](const Metric& m) { return m.has_result(); });
+    };
+    add("");
+    for (const std::string& part : compared.parts) add(part);
+  }
+  return all;
+}
+
 const FieldResult* field_of(const CompareResult& result, const std::string& name) {
   const auto found = std::find_if(result.fields.begin(), result.fields.end(),
                                   [&](const FieldResult& field) { return field.quantity.name == name; });
@@ -461,6 +497,39 @@ const Metric* find_metric_or_null(const std::string& name) {
   const auto found =
       std::find_if(metrics().begin(), metrics().end(), [&](const Metric& metric) { return metric.name == name; });
   return found == metrics().end() ? nullptr : &*found;
+}
+
+namespace {
+
+/// "site" of "site_mean_difference"; empty where the name does not end like that.
+std::string before_ending(const std::string& name, const std::string& ending) {
+  const std::string all = "_" + ending;
+  const bool fits = name.size() > all.size() && name.compare(name.size() - all.size(), all.size(), all) == 0;
+  return fits ? name.substr(0, name.size() - all.size()) : std::string();
+}
+
+const Metric* find_in(const std::vector<Metric>& rows, const std::string& name) {
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](const Metric& metric) { return metric.name == name; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+const Metric* metric_of_column(const std::string& name, const std::vector<Quantity>& fields) {
+  if (const Metric* const whole = find_metric_or_null(name)) return whole;
+  for (const Quantity& field : fields) {
+    if (const Metric* const metric = find_in(field_metrics(field), name)) return metric;
+    for (const Metric& metric : field_metrics(field)) {
+      const std::string part = before_ending(name, metric.name);
+      if (!part.empty()) return find_in(field_metrics(field, part), name);
+    }
+  }
+  for (const Metric& metric : metrics()) {
+    const std::string part = before_ending(name, metric.name);
+    const Metric* const of_part = part.empty() ? nullptr : find_in(part_metrics(part), name);
+    if (of_part != nullptr) return of_part;
+  }
+  return nullptr;
 }
 
 double value_of(const Metric& metric, const CompareResult& result) {
@@ -534,7 +603,12 @@ std::string formatted(const Metric& metric, double value) {
 
 Metrics counted_metrics(const CompareResult& result) {
   if (result.has_potential) return result.metrics;
-  Metrics counted{0, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, 0, 0, kNaN};
+  using M = Metrics;
+  Metrics counted;
+  for (double M::*const of_potentials :
+       {&M::mean_abs_difference, &M::rms_difference, &M::mean_signed_difference, &M::sign_change_area_fraction,
+        &M::hodgkin_index, &M::carbo_index, &M::correlation})
+    counted.*of_potentials = kNaN;
   for (const ResidueRow& row : result.residues) {
     if (!(row.area_A2 > 0)) continue;
     counted.area_A2 += row.area_A2;

@@ -2,16 +2,29 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/quantity.h"
 #include "engine/certificate_stage.h"
 
 namespace espdiff {
 
+struct CompareOptions;
 struct CompareResult;
 struct FieldResult;
-struct Quantity;
 struct ResidueRow;
+
+/// What a result has numbers of besides the whole surface and the potential: region and patches by name, and fields.
+struct PartsAndFields {
+  PartsAndFields() = default;
+  PartsAndFields(std::vector<std::string> names_of_parts, std::vector<Quantity> fields_compared = {})
+      : parts(std::move(names_of_parts)), fields(std::move(fields_compared)) {}
+  bool operator<(const PartsAndFields& other) const;
+
+  std::vector<std::string> parts;  ///< names as part_names() gives them
+  std::vector<Quantity> fields;
+};
 
 /// What the values of a metric are in.
 enum class MetricUnit { kPotential, kAngstrom, kSquareAngstrom, kFraction, kIndex, kCount };
@@ -81,12 +94,21 @@ std::string part_pointer(const std::string& part);
 const std::vector<Metric>& field_metrics(const Quantity& field, const std::string& part = "");
 /// "/fields/FIELD", or of a part "/region/fields/FIELD".
 std::string field_pointer(const std::string& field, const std::string& part = "");
+/// Of a result, and of what options ask for. @throws as make_fields()
+PartsAndFields parts_and_fields(const CompareResult& result);
+PartsAndFields parts_and_fields(const CompareOptions& options);
+/// The metrics of fields, and of fields on parts, field by field.
+std::vector<Metric> all_field_metrics(const PartsAndFields& compared);
 /// What the residues of a result have: metrics, then those of its fields.
 std::vector<Metric> residue_metrics(const CompareResult& result);
 /// Null where it was not compared.
 const FieldResult* field_of(const CompareResult& result, const std::string& name);
 /// Null when there is none of that name.
 const Metric* find_metric_or_null(const std::string& name);
+
+/// The metric of a column: of the whole, of a field (or of it on a part), or of a part ("site_mean_abs_difference").
+/// Null where it is none.
+const Metric* metric_of_column(const std::string& name, const std::vector<Quantity>& fields = {});
 
 /// The number for the whole comparison, or for one of its parts; NaN where there is none. The metric
 /// has_result().

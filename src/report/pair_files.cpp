@@ -70,7 +70,7 @@ std::vector<std::string> texts_of(const RecordJson& json, const std::string& nam
 }
 
 /// The metric of a column such as "mean_slip", whose name may lack its unit.
-const Metric* metric_of_column(const std::string& name) {
+const Metric* metric_of_residue_column(const std::string& name) {
   for (const char* ending : {"", "_A", "_A2"}) {
     if (const Metric* metric = find_metric_or_null(name + ending)) return metric;
   }
@@ -180,7 +180,7 @@ std::vector<ResidueColumn> residue_columns(const CsvTable& residues) {
     const std::string& text = residues.columns[c];
     const std::size_t bracket = text.find(" [");
     const std::string name = text.substr(0, bracket);
-    const Metric* const metric = metric_of_column(name);
+    const Metric* const metric = metric_of_residue_column(name);
     columns.push_back({c, name, bracket == std::string::npos ? "" : text.substr(bracket + 2, text.size() - bracket - 3),
                        metric != nullptr ? metric->label : name});
   }

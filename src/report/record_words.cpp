@@ -44,13 +44,15 @@ std::vector<std::pair<std::string, std::string>> chains_in_words(const Record& r
     m.rmsd_A = r.number("/rmsd_A");
     m.own_rmsd_A = r.number("/own_rmsd_A");
   }
-  if (!motions.empty()) lines.emplace_back("Against the others", in_words(motions));
+  if (!motions.empty()) lines.emplace_back("Chains moved", in_words(motions));
   for (const std::string side : {"source", "target"}) {
+    std::string groups;
     for (const Json& group : record.at("/chains/copies/" + side)) {
       std::string names;
       for (const Json& name : group) names += (names.empty() ? "" : ", ") + Record(name).text("");
-      lines.emplace_back("Copies in the " + side, "chains " + names + " repeat one sequence");
+      groups += (groups.empty() ? "chains " : "; chains ") + names;
     }
+    if (!groups.empty()) lines.emplace_back("Copies, " + side, groups + " repeat one sequence");
   }
   return lines;
 }

@@ -29,14 +29,14 @@
 #include "report/provenance.h"
 
 namespace espdiff {
-namespace {
-
 /// Per-vertex arrays that the result implies.
 struct DerivedArrays {
   std::vector<float> difference;
   std::vector<std::uint8_t> sign_change;
   std::vector<std::int32_t> residue_number;
 };
+
+namespace {
 
 /// 1 where the signs differ; zero agrees with anything, and so does what lies outside a map.
 std::uint8_t sign_changes(float a, float b) { return (a < 0 && b > 0) || (a > 0 && b < 0) ? 1 : 0; }

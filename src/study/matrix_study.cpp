@@ -83,9 +83,11 @@ std::vector<Variant> read_variants(const MatrixStudy& study, const Progress& pro
     variant.molecule = std::move(state.loaded.molecule);
     if (state.map != nullptr) variant.map = *state.map;
     variant.make_map = state.make_map;
+    variant.fields = state.fields;
     wholes.push_back(state.loaded.whole.size() > 0 ? &state.loaded.whole : &variant.molecule);
   }
   set_parts(variants, wholes, study.options.input);
+  set_fields(variants, study.options);
   run.radii_note = set_radii(variants, study.options.input.radii, run.through_template);
   unite_map_units(variants, study.options.temperature_K);
   return variants;

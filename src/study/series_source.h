@@ -16,7 +16,7 @@ class SeriesSource {
   const LoadedState& loaded() const { return state_.loaded; }
   const Molecule& surface() const { return surface_; }
   /// Refers to this source.
-  CompareInput side() const { return {&surface_, state_.map.get(), state_.make_map, state_.parts}; }
+  CompareInput side() const { return {&surface_, state_.map.get(), state_.make_map, state_.parts, state_.fields}; }
   /// A frame with the radii that its surface is made by. Refers to the frame. @throws as set_frame_radii()
   CompareInput frame(ComparedState& frame, const InputOptions& options) const;
 

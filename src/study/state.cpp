@@ -6,8 +6,10 @@
 
 #include "base/error.h"
 #include "compare/options.h"
+#include "field/given_values.h"
 #include "io/read_grid.h"
 #include "io/select_atoms.h"
+#include "io/sha256.h"
 #include "io/structure_file.h"
 #include "prepare/pdb2pqr.h"
 #include "report/state_report.h"
@@ -53,12 +55,15 @@ ComputedMap own_map(const StatePotential& own, const LoadedState& state, double 
     surroundings.solute = state.molecule.positions;
     return {own.charges, surroundings, options};
   }
+  const bool is_in_water = state.everything.size() > 0 && potential_facts(state.everything, state.cell).has_solvent;
   const bool is_padded =
       std::any_of(own.given.begin(), own.given.end(), [](const auto& setting) { return setting.first == "pad"; });
-  const bool takes_water = own.method == PotentialMethod::kPme && !is_padded && state.everything.size() > 0;
-  if (takes_water && (options.cell || potential_facts(state.everything, state.cell).has_solvent))
+  if (own.method == PotentialMethod::kPme && !is_padded &&
+      (is_in_water || (options.cell && state.everything.size() > 0)))
     return {state.everything, {state.cell, {}, false}, options};
-  return {state.molecule, surroundings, options};
+  // Chosen because of the water, whose place it takes: see PotentialPlan.
+  const bool replaces_water = own.method == PotentialMethod::kPoissonBoltzmann && is_in_water && !own.because.empty();
+  return {replaces_water ? without_salt(state.molecule) : state.molecule, surroundings, options};
 }
 
 std::string map_role(const ComparedState& state) { return state.role == "structure" ? "map" : state.role + "_map"; }
@@ -156,6 +161,12 @@ ComparedState StateReader::compared(const State& given, StateRole role, LoadedSt
   input.role = state.role;
   state.inputs = state_inputs(state.role, input, state.loaded);
   state.parts.region = given.region;
+  if (given.given == nullptr) return state;
+  state.fields.given = given.given;
+  std::string names;
+  for (const std::string& name : given.given->names()) names += (names.empty() ? "" : ", ") + name;
+  state.inputs.push_back({state.role == "structure" ? "array" : state.role + "_array",
+                          names + " of " + state.loaded.molecule.name, sha256_of(given.given->bytes()), {}, {}});
   return state;
 }
 

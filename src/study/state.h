@@ -21,6 +21,7 @@
 namespace espdiff {
 
 struct CompareOptions;
+class GivenValues;
 class StructureFile;
 
 /// A potential that one state has by itself, of charges that may be more than its molecule's (Tcl: `map pb`).
@@ -46,6 +47,7 @@ struct State {
   std::optional<UnitCell> cell;                ///< of a molecule
   InputFile input;                   ///< of a molecule, without role; of a file its SHA-256 where it has to be that
   std::vector<std::uint8_t> region;  ///< [residue] nonzero in the region; empty: by the options
+  std::shared_ptr<const GivenValues> given{};  ///< values of its atoms for fields; null for none
 
   std::string map_path, map_array, map_unit;  ///< of a map's file
   std::shared_ptr<const Grid> map;            ///< a map from memory, or a file's that was read already
@@ -66,6 +68,7 @@ struct ComparedState {
   std::shared_ptr<const Grid> map;
   MapMaker make_map = nullptr;
   SurfaceParts parts;
+  FieldInput fields;
   std::vector<InputFile> inputs;      ///< the structure, and files with charges
   std::vector<InputFile> map_inputs;  ///< of the map, where there is one
 
@@ -74,7 +77,7 @@ struct ComparedState {
   /// Takes patches, and a region unless the state was given one.
   void take_parts(SurfaceParts made);
   /// Refers to this state.
-  CompareInput side() const { return {&loaded.molecule, map.get(), make_map, parts}; }
+  CompareInput side() const { return {&loaded.molecule, map.get(), make_map, parts, fields}; }
 };
 
 /// What the states of a study have in common.

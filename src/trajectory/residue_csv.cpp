@@ -61,9 +61,10 @@ std::string residue_column(const Residue& residue) {
   return residue.chain.empty() ? name : residue.chain + ":" + name;
 }
 
-ResidueCsv::ResidueCsv(std::string path, std::string quantity, ExistingFile existing)
+ResidueCsv::ResidueCsv(std::string path, std::string quantity, ExistingFile existing,
+                       const std::vector<FieldRequest>& fields)
     : file_(std::move(path), existing), quantity_(std::move(quantity)) {
-  if (!quantity_.empty()) require_residue_quantity(quantity_);
+  if (!quantity_.empty()) require_residue_quantity(quantity_, fields);
 }
 
 void ResidueCsv::resume(const std::vector<std::string>& frames, const std::string& fingerprint) {

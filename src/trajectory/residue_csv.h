@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/quantity.h"
 #include "base/types.h"
 #include "io/appended_file.h"
 
@@ -27,8 +28,10 @@ class ResidueCsv {
   static constexpr const char* kPartners = "partners: ";
 
   /// @param quantity of residue_quantities(); empty: usual_residue_quantity()
+  /// @param fields that are compared, whose quantities there are besides
   /// @throws as AppendedFile; InputError (there is no such quantity)
-  ResidueCsv(std::string path, std::string quantity, ExistingFile existing);
+  ResidueCsv(std::string path, std::string quantity, ExistingFile existing,
+             const std::vector<FieldRequest>& fields = {});
 
   const std::string& path() const { return file_.path(); }
   /// As it was asked for; empty for the usual one.

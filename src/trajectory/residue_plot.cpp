@@ -32,7 +32,7 @@ std::vector<std::string> partners_of(const CsvTable& table) {
 FrameMap residue_map(const CsvTable& table) {
   const std::string head = table.comments.front().substr(std::string(ResidueCsv::kHeadWord).size());
   const std::size_t blank = std::min(head.find(' '), head.size());
-  const Metric* const metric = find_metric_or_null(head.substr(0, blank));
+  const Metric* const metric = metric_of_column(head.substr(0, blank));
   FrameMap map;
   map.title = metric == nullptr ? head.substr(0, blank) : metric->label;
   if (blank + 2 < head.size()) map.unit = head.substr(blank + 2, head.size() - blank - 3);

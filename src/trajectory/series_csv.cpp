@@ -47,8 +47,8 @@ bool has_comments_only(const std::string& lines) {
 
 }  // namespace
 
-SeriesCsv::SeriesCsv(std::string path, SeriesHead head, ExistingFile existing, std::vector<std::string> parts)
-    : file_(std::move(path), existing), head_(std::move(head)), parts_(std::move(parts)) {
+SeriesCsv::SeriesCsv(std::string path, SeriesHead head, ExistingFile existing, PartsAndFields compared)
+    : file_(std::move(path), existing), head_(std::move(head)), compared_(std::move(compared)) {
   for (auto& entry : head_) entry.second = head_text(entry.second);
   if (existing == ExistingFile::kResume && file_.has_content()) read_rows();
 }
@@ -68,7 +68,7 @@ void SeriesCsv::read_rows() {
     if (wanted != head_.end()) check_same(name, value, wanted->second);
     if (wanted == head_.end()) unconfirmed_.insert(name);
   }
-  if (table.columns != file_columns(series_columns(parts_)))
+  if (table.columns != file_columns(series_columns(compared_)))
     throw FormatError(path(), static_cast<long>(table.comments.size()) + 1,
                       "this is not this version's line of columns; give another file");
   for (const auto& [name, now] : head_) {
@@ -86,7 +86,7 @@ void SeriesCsv::read_rows() {
                         "this row, or the head above it, was changed or is damaged: its checksum is " + there +
                             ", not " + sum_ + "; remove this row and all after it, or begin anew (" +
                             switched_on("overwrite") + ")");
-    rows_.emplace_back(std::move(cells), parts_);
+    rows_.emplace_back(std::move(cells), compared_);
   }
   has_head_ = is_resumed_ = true;
   file_.truncate(lines.size());
@@ -126,7 +126,7 @@ std::string SeriesCsv::fingerprint() const {
 }
 
 /// That of the first row follows the head and the columns.
-void SeriesCsv::begin_checksums() { sum_ = sum_of(fingerprint(), series_columns(parts_)); }
+void SeriesCsv::begin_checksums() { sum_ = sum_of(fingerprint(), series_columns(compared_)); }
 
 void SeriesCsv::add(const SeriesRow& row) {
   std::string text;

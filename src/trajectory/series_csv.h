@@ -26,8 +26,8 @@ class SeriesCsv {
   ///             says besides must be noted (note()).
   /// @throws IoError (the file exists, cannot be written, or another run is writing it), FormatError (another file, a
   ///         damaged line), InputError (made with something else; says what)
-  /// @param parts region and patches, whose columns the rows have
-  SeriesCsv(std::string path, SeriesHead head, ExistingFile existing, std::vector<std::string> parts = {});
+  /// @param compared whose columns the rows have
+  SeriesCsv(std::string path, SeriesHead head, ExistingFile existing, PartsAndFields compared = {});
 
   const std::string& path() const { return file_.path(); }
   /// Rows in the file: of earlier runs and of this one.
@@ -51,7 +51,7 @@ class SeriesCsv {
 
   AppendedFile file_;
   SeriesHead head_;
-  std::vector<std::string> parts_;
+  PartsAndFields compared_;
   std::vector<SeriesRow> rows_;
   std::set<std::string> unconfirmed_;  ///< lines of a resumed file's head that this run has not noted
   std::string sum_;                    ///< checksum of the last row

@@ -6,8 +6,10 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "compare/settings.h"
+#include "field/field_kinds.h"
 #include "io/sha256.h"
 #include "prepare/read_earlier_patch.h"
+#include "report/field_json.h"
 #include "trajectory/frame_range.h"
 
 namespace espdiff {
@@ -42,7 +44,6 @@ std::string settings_in_words(const CompareOptions& options) {
 }  // namespace
 
 SeriesHead series_head(const SeriesDescription& run, const CompareOptions& options) {
-  refuse_fields(options, "a trajectory");
   SeriesHead head = {{"espdiff", kVersion}};
   if (run.files.empty()) {
     head.insert(head.end(), run.molecule.begin(), run.molecule.end());
@@ -64,6 +65,8 @@ SeriesHead series_head(const SeriesDescription& run, const CompareOptions& optio
       patch_files.insert(patch_files.end(), {earlier->path, surface_beside(*earlier)});
   }
   if (!patch_files.empty()) head.emplace_back("patch_sha256", joined(patch_files, sha256_of_file));
+  for (const FieldDescription& field : describe(make_fields(options.fields)))
+    head.emplace_back(kFieldInHead + field.quantity.name, field_head_text(field));
   if (!run.files.empty()) head.emplace_back("file_sha256", joined(run.files, sha256_of_file));
   if (!run.reference_files.empty()) head.emplace_back("reference_sha256", joined(run.reference_files, sha256_of_file));
   return head;

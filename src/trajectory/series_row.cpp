@@ -59,15 +59,18 @@ struct Columns {
   std::vector<std::string> names;
 };
 
-/// Made once for each choice of parts.
-const Columns& columns_for(const std::vector<std::string>& parts) {
+/// Made once for each choice.
+const Columns& columns_for(const PartsAndFields& compared) {
   static std::mutex one_at_a_time;
-  static std::map<std::vector<std::string>, Columns> known;
+  static std::map<PartsAndFields, Columns> known;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
-  Columns& columns = known[parts];
+  Columns& columns = known[compared];
   if (!columns.table.empty()) return columns;
   columns.table = make_columns();
-  for (const std::string& part : parts) add_columns_of_part(part, columns.table);
+  for (const std::string& part : compared.parts) add_columns_of_part(part, columns.table);
+  for (const Metric& metric : all_field_metrics(compared)) {
+    if ((metric.flags & kInSeries) != 0) columns.table.push_back({metric.name, metric.json_pointer()});
+  }
   for (const Column& column : columns.table) columns.names.push_back(column.name);
   return columns;
 }
@@ -98,23 +101,20 @@ std::string one_line(std::string text) {
   return text;
 }
 
-const std::vector<std::string>& series_columns(const std::vector<std::string>& parts) {
-  return columns_for(parts).names;
-}
+const std::vector<std::string>& series_columns(const PartsAndFields& compared) { return columns_for(compared).names; }
 
 SeriesRow::SeriesRow(int frame, const std::string& reference, const Molecule& source, const Molecule& target,
                      const CompareResult& result, const CompareOptions& options)
-    : columns_(&series_columns(part_names(result))) {
+    : columns_(&series_columns(parts_and_fields(result))) {
   const OrderedJson json = compare_json(source, target, result, options, {});
-  for (const Column& column : columns_for(part_names(result)).table)
+  for (const Column& column : columns_for(parts_and_fields(result)).table)
     cells_.push_back(column.pointer.empty() ? std::string() : cell_of(value_at(json, column.pointer)));
   at("frame") = std::to_string(frame);
   at("reference_frame") = one_line(reference);
 }
 
-SeriesRow::SeriesRow(int frame, const std::string& reference, const std::string& error,
-                     const std::vector<std::string>& parts)
-    : columns_(&series_columns(parts)), cells_(columns_->size()) {
+SeriesRow::SeriesRow(int frame, const std::string& reference, const std::string& error, const PartsAndFields& compared)
+    : columns_(&series_columns(compared)), cells_(columns_->size()) {
   at("frame") = std::to_string(frame);
   at("reference_frame") = one_line(reference);
   at("error") = one_line(error);

@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "base/types.h"
+#include "report/metrics.h"
 
 namespace espdiff {
 
 struct CompareOptions;
 struct CompareResult;
 
-/// Names of the columns, in order. Those of a region and of patches follow all others.
-/// @param parts names as part_names() gives them
-const std::vector<std::string>& series_columns(const std::vector<std::string>& parts = {});
+/// Names of the columns, in order. Those of a region and of patches follow all others, then those of fields.
+const std::vector<std::string>& series_columns(const PartsAndFields& compared = {});
 
 /// One frame, by column; missing values are empty. Numbers have all digits. Nothing depends on time, threads or the
 /// process, so that equal runs write equal bytes.
@@ -24,11 +24,10 @@ class SeriesRow {
   SeriesRow(int frame, const std::string& reference, const Molecule& source, const Molecule& target,
             const CompareResult& result, const CompareOptions& options);
   /// A row without numbers, with the reason.
-  SeriesRow(int frame, const std::string& reference, const std::string& error,
-            const std::vector<std::string>& parts = {});
+  SeriesRow(int frame, const std::string& reference, const std::string& error, const PartsAndFields& compared = {});
   /// @param cells one a column
-  explicit SeriesRow(std::vector<std::string> cells, const std::vector<std::string>& parts = {})
-      : columns_(&series_columns(parts)), cells_(std::move(cells)) {}
+  explicit SeriesRow(std::vector<std::string> cells, const PartsAndFields& compared = {})
+      : columns_(&series_columns(compared)), cells_(std::move(cells)) {}
 
   /// @throws Error when there is no such column
   const std::string& operator[](const std::string& column) const;

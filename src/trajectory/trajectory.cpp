@@ -209,7 +209,7 @@ const SeriesRow* TrajectoryRun::skip(const Error& why) {
   const TrajectoryStep& step = next();
   if (!plan_.skip_errors) throw Error(why.error_class(), in_front(step.frame) + why.message());
   ++n_skipped_;
-  return end_step({step.frame, step.reference, why.what(), plan_.parts});
+  return end_step({step.frame, step.reference, why.what(), plan_.compared});
 }
 
 /// After a failed frame the mapping starts from the source, as in a run that is resumed there.
@@ -218,7 +218,9 @@ StartFrom TrajectoryRun::start_of_step() const {
   return follows_error || plan_.against != Reference::kOne ? StartFrom::kSource : plan_.start;
 }
 
-SeriesRow TrajectoryRun::compare(Engine& engine, const StepInput& input, const Progress& progress) {
+SeriesRow TrajectoryRun::compare(Engine& engine, StepInput input, const Progress& progress) {
+  input.target.fields.frame = next().frame;  // which names the files of its fields
+  input.source.fields.frame = next().source.value_or(-1);
   if (series_ == nullptr || plan_.against != Reference::kOne)
     series_ = std::make_unique<Series>(engine, input.source, plan_.options);
   if (restored_) series_->restore(std::move(*restored_));

@@ -31,8 +31,8 @@ struct TrajectoryPlan {
   std::string reference;  ///< the one source, as the rows name it
   CompareOptions options;
   StartFrom start = StartFrom::kPrevious;
-  bool skip_errors = false;          ///< a frame that fails becomes a row with the error, and the run goes on
-  std::vector<std::string> parts{};  ///< region and patches of the sources, whose numbers are in further columns
+  bool skip_errors = false;   ///< a frame that fails becomes a row with the error, and the run goes on
+  PartsAndFields compared{};  ///< region and patches of the sources, and fields, whose numbers are in further columns
 };
 
 /// Default start of mappings: the source (morph) or the frame before (deform).
@@ -109,7 +109,7 @@ class TrajectoryRun {
   std::string state_fingerprint(const std::string& frame) const;
   void remove_state() const;
   void resume_residues();
-  SeriesRow compare(Engine& engine, const StepInput& input, const Progress& progress);
+  SeriesRow compare(Engine& engine, StepInput input, const Progress& progress);
   StartFrom start_of_step() const;
   const SeriesRow* end_step(const SeriesRow& row);
   void compare_again(const SeriesRow& row) const;

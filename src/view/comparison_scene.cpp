@@ -273,8 +273,8 @@ void ComparisonScene::aim_camera() {
   double beside_A = scene_.n_labels > 0 || !scene_.causes.empty() ? 6 : 0;
   for (const double offset : scene_.offsets_A) beside_A = std::max(beside_A, offset);
   if (!scene_.camera && scene_.focus.empty()) {
-    const double all = height_that_fits(camera_, geometry_.cover().positions, aspect) / scene_.zoom;
-    camera_.half_height_A = std::max(camera_.half_height_A, all);
+    const double whole = height_that_fits(camera_, geometry_.cover().positions, aspect) / scene_.zoom;
+    camera_.half_height_A = std::max(camera_.half_height_A, whole);
   }
   if (!scene_.camera && !scene_.focus.empty()) aim_at_focus(aspect);
   if (!scene_.camera) camera_.half_height_A += beside_A * std::max(1.0, aspect) / scene_.zoom;

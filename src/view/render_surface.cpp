@@ -60,7 +60,9 @@ std::string inputs(const RunRecord& record) {
 
 std::vector<std::string> notes_on(const ComparisonFiles& files, const Scene& scene) {
   std::vector<std::string> notes;
-  if (shows_potentials(scene) && !scene.per_vertex && scene.field.empty() && !files.maps.complete()) {
+  // Of computed potentials there are no maps, which is no surprise.
+  const bool may_have_maps = !files.record.found || !files.record.maps_computed;
+  if (shows_potentials(scene) && !scene.per_vertex && scene.field.empty() && may_have_maps && !files.maps.complete()) {
     notes.push_back("potentials are interpolated between vertices, not looked up in the maps: " + files.maps.why_not);
   }
   if (files.record.found && !files.record.trustworthy) {

@@ -12,7 +12,7 @@ namespace espdiff {
 namespace {
 
 constexpr int kSpreadRounds = 400;  // over parts of some 20 triangles across
-constexpr int kBorderRounds = 4, kOutlineRounds = 12;
+constexpr int kBorderRounds = 4, kOutlineRounds = 12, kTearRounds = 12;
 
 /// Gauss-Seidel: each free vertex becomes the mean of its neighbours.
 void spread(const std::vector<Triangle>& triangles, const std::vector<bool>& is_free, std::vector<Vec3d>& values) {
@@ -48,6 +48,27 @@ void renew_normals(const std::vector<Triangle>& triangles, const std::vector<boo
     const double length = norm(sums[v]);
     if (is_new[v] && length > 0) cover.normals[v] = static_cast<Vec3f>((1 / length) * sums[v]);
   }
+}
+
+double area_of(const Triangle& t, const std::vector<Vec3d>& p) {
+  return 0.5 * norm(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
+}
+
+/// [vertex] 1 inside tears, 0 outside, smooth between: most triangles around an unmatched vertex span a tear.
+std::vector<float> torn_share(const SurfaceFile& surface, const std::vector<Vec3f>& start,
+                              const std::vector<bool>& is_free, const SurfaceCover& cover) {
+  constexpr double kTornGrowth = 3;  // of a triangle's area
+  std::vector<int> n_torn(is_free.size(), 0), n_whole(is_free.size(), 0);
+  for (const Triangle& t : surface.triangles) {
+    if (!is_free[t[0]] && !is_free[t[1]] && !is_free[t[2]]) continue;
+    const auto at = [&](std::size_t k) { return static_cast<Vec3d>(start[t[k]]); };
+    const double before = area_of({0, 1, 2}, {at(0), at(1), at(2)});
+    const bool is_torn = area_of(t, cover.positions) > kTornGrowth * before;
+    for (const std::uint32_t corner : t) ++(is_torn ? n_torn : n_whole)[corner];
+  }
+  std::vector<float> share(is_free.size(), 0);
+  for (std::size_t v = 0; v < share.size(); ++v) share[v] = is_free[v] && n_torn[v] > n_whole[v] ? 1.0F : 0.0F;
+  return smoothed_over_neighbours(surface.triangles, std::move(share), kTearRounds);
 }
 
 /// [vertex] share of the matched triangles around it that are trusted, smoothed.
@@ -103,6 +124,9 @@ SurfaceCover cover_of(const SurfaceFile& surface, const std::vector<Vec3f>& star
   }
   renew_normals(surface.triangles, is_free, cover);
   cover.matched = smoothed_over_neighbours(surface.triangles, std::move(cover.matched), kBorderRounds);
+  const std::vector<float> torn = torn_share(surface, start, is_free, cover);
+  for (std::size_t v = 0; v < torn.size(); ++v)
+    if (is_free[v]) cover.matched[v] -= torn[v];
   return cover;
 }
 

@@ -12,8 +12,9 @@ namespace espdiff {
 struct SurfaceCover {
   std::vector<Vec3d> positions;  ///< [vertex] mapped; of vertices without a matched triangle, see cover_of()
   std::vector<Vec3f> normals;    ///< [vertex] unit, outward, at these positions
-  /// [vertex] 1 in matched parts, 0 in unmatched ones, smooth between. The border at 0.5 lies in matched triangles,
-  /// about half a triangle from the unmatched ones.
+  /// [vertex] 1 in matched parts, 0 in unmatched ones, -1 inside tears (unmatched triangles that are drawn much larger
+  /// than they are on the source: no surface is there), smooth between. The border at 0.5 lies in matched triangles,
+  /// about half a triangle from the unmatched ones; surface.frag leaves tears open.
   std::vector<float> matched;
   std::vector<float> trusted;  ///< [vertex] 1 in parts that are not marked as not trusted, 0 in others, smooth between
 };

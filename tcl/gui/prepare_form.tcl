@@ -81,12 +81,17 @@ namespace eval ::espdiff::gui {
         variable compares_next
         set sides [expr {[in_vmd] ? [unprepared_sides] : {}}]
         if {$sides eq "" || [dict get [::espdiff::core::build] pdb2pqr] eq ""} { return 0 }
-        foreach side $sides { lappend names $form($side,mol) }
+        foreach side $sides {
+            lappend names $form($side,mol)
+            lappend paths [file tail [prepared_path $side]]
+        }
         set names [::espdiff::join_words [lsort -unique $names] and]
+        set paths [::espdiff::join_words [lsort -unique $paths] and]
         set answer [tk_messageBox -parent $window -type yesnocancel -icon question \
             -title "Surface Potential Comparison" -message "No charges: $names" \
             -detail "Prepare by PDB2PQR (hydrogens, charges and radii, by the settings' page Input), compare, and\
-                draw? The prepared structures are saved beside the files and loaded.\n\nNo compares the shapes alone."]
+                draw? This saves and loads $paths in the folder\
+                [file dirname [prepared_path [lindex $sides 0]]].\n\nNo compares the shapes alone."]
         if {$answer eq "cancel"} { return 1 }
         if {$answer ne "yes"} { return 0 }
         set to_prepare $sides
@@ -109,12 +114,15 @@ namespace eval ::espdiff::gui {
         }
     }
 
-    # A new name beside the molecule's file, or in the working folder if nothing can be written there.
+    # A new name in the working folder, where VMD's own tools write, or beside the molecule's file if nothing can be
+    # written there.
     proc prepared_path {side} {
         variable form
         set mol [number_of $form($side,mol)]
-        set folder [file dirname [file normalize [lindex [molinfo $mol get filename] 0 0]]]
-        if {![file writable $folder]} { set folder [pwd] }
+        set folder [pwd]
+        if {![file writable $folder]} {
+            set folder [file dirname [file normalize [lindex [molinfo $mol get filename] 0 0]]]
+        }
         set name [file join $folder [file rootname [file tail [molinfo $mol get name]]]-prepared]
         set path $name.pqr
         for {set i 2} {[file exists $path]} {incr i} { set path $name-$i.pqr }

@@ -48,7 +48,7 @@ const Rooms kAllowed = {
      {"system", "base", "align", "causes", "engine", "field", "io", "statistics", "compare", "prepare", "potential",
       "report", "trajectory", "matrix"}},
     {"study",
-     {"base", "align", "engine", "io", "compare", "prepare", "potential", "report", "trajectory", "matrix",
+     {"base", "align", "engine", "field", "io", "compare", "prepare", "potential", "report", "trajectory", "matrix",
       "ensemble"}},
     {"cli", {"system", "base", "align", "engine", "field",  "io",     "statistics", "compare", "prepare",  "potential",
              "plot",   "view", "page",  "export", "verify", "report", "trajectory", "matrix",  "ensemble", "study"}},

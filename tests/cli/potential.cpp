@@ -31,9 +31,9 @@ std::string helix(int n_models, bool with_cell = false) {
   return text;
 }
 
-/// FFTW may be absent: then the command line says so.
+/// pocketfft may be absent: then the command line says so.
 bool lacks_fourier(const Outcome& outcome) {
-  if (outcome.status != 1 || !contains(outcome.err, "libfftw3-dev")) return false;
+  if (outcome.status != 1 || !contains(outcome.err, "has no pocketfft")) return false;
   MESSAGE("SKIPPED: ", outcome.err);
   return true;
 }

@@ -43,7 +43,7 @@ TEST_CASE("compare prints the verdict first, the numbers next, and names the com
     CHECK_MESSAGE(found >= at, part);
     at = found;
   }
-  CHECK(n_lines(answer.out) < 35);
+  CHECK(n_lines(answer.out) < 30);
   CHECK(!contains(answer.out, "Certificate"));
   const Outcome brief = run_espdiff("show --brief " + pair.json());
   CHECK(brief.status == 0);

@@ -99,6 +99,10 @@ TEST_CASE("a manual page names every option of its command") {
   for (const char* part :
        {".TH ESPDIFF\\-COMPARE 1", ".SH SYNOPSIS", "\\-\\-grid\\-spacing NUMBER", ".SH REGULARIZATION"})
     CHECK_MESSAGE(contains(page, part), part);
+  const std::string all = run_espdiff("man").out;
+  CHECK(contains(all, ".TH ESPDIFF 1 "));
+  CHECK(contains(all, ".B compare\nCompare the electrostatic surface potentials"));
+  CHECK(contains(all, ".BR espdiff\\-trajectory (1)"));
   const Outcome outcome = run_espdiff("man rendr");
   CHECK(outcome.status == 2);
   CHECK(outcome.err == "espdiff: there is no command 'rendr'; espdiff --help lists them\n");

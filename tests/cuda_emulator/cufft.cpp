@@ -1,9 +1,15 @@
-// cufft.cpp: cuFFT's functions that espdiff calls, by FFTW, on the memory of cuda_emulator/device_memory.h. Made into a
-// library of cuFFT's name, which the engine opens as it would open NVIDIA's.
+// cufft.cpp: cuFFT's functions that espdiff calls, by pocketfft, on the memory of cuda_emulator/device_memory.h. Made
+// into a library of cuFFT's name, which the engine opens as it would open NVIDIA's.
 #include <cufft.h>
-#include <fftw3.h>
 
+#define POCKETFFT_NO_MULTITHREADING
+#define POCKETFFT_NO_VECTORS
+#include <pocketfft_hdronly.h>
+
+#include <complex>
+#include <cstddef>
 #include <map>
+#include <vector>
 
 // streams.h has these; the program that opens this library exports them.
 extern "C" void cuda_emulator_put(void* stream, void (*work)(void*), void* data);
@@ -28,18 +34,25 @@ std::map<cufftHandle, Plan>& plans() {
   return all;
 }
 
-template <typename Real, typename Complex, typename MakeForward, typename MakeBack, typename Execute, typename Destroy>
-void transform(const Transform& it, bool forward, MakeForward make_forward, MakeBack make_back, Execute execute,
-               Destroy destroy) {
-  const auto [x, y, z] = it.plan.size;
+template <typename Real>
+void transform(const Transform& it, bool forward) {
+  using Complex = std::complex<Real>;
+  const std::vector<std::size_t> size(it.plan.size, it.plan.size + 3);
+  const std::size_t rows = size[0] * size[1], columns = size[2], modes = columns / 2 + 1;
+  const auto strides = [&](std::size_t row, std::size_t element) {
+    const auto at = [&](std::size_t n) { return static_cast<std::ptrdiff_t>(n * element); };
+    return std::vector<std::ptrdiff_t>{at(size[1] * row), at(row), at(1)};
+  };
+  const auto of_values = strides(columns, sizeof(Real)), of_modes = strides(modes, sizeof(Complex));
   void *const in = cuda_emulator_view(it.in), *const out = cuda_emulator_view(it.out);
-  const auto plan = forward ? make_forward(x, y, z, static_cast<Real*>(in), static_cast<Complex*>(out), FFTW_ESTIMATE)
-                            : make_back(x, y, z, static_cast<Complex*>(in), static_cast<Real*>(out), FFTW_ESTIMATE);
-  execute(plan);
-  destroy(plan);
-  const unsigned long rows = static_cast<unsigned long>(x) * static_cast<unsigned long>(y),
-                      columns = static_cast<unsigned long>(z);
-  cuda_emulator_mark_written(it.out, rows * (forward ? (columns / 2 + 1) * sizeof(Complex) : columns * sizeof(Real)));
+  if (forward) {
+    pocketfft::r2c(size, of_values, of_modes, {0, 1, 2}, true, static_cast<Real*>(in), static_cast<Complex*>(out),
+                   Real(1));
+  } else {
+    pocketfft::c2r(size, of_modes, of_values, {0, 1, 2}, false, static_cast<Complex*>(in), static_cast<Real*>(out),
+                   Real(1));
+  }
+  cuda_emulator_mark_written(it.out, rows * (forward ? modes * sizeof(Complex) : columns * sizeof(Real)));
 }
 
 void run(void* data) {
@@ -47,11 +60,9 @@ void run(void* data) {
   delete static_cast<Transform*>(data);
   const bool forward = it.plan.type == CUFFT_R2C || it.plan.type == CUFFT_D2Z;
   if (it.plan.type == CUFFT_R2C || it.plan.type == CUFFT_C2R) {
-    transform<float, fftwf_complex>(it, forward, fftwf_plan_dft_r2c_3d, fftwf_plan_dft_c2r_3d, fftwf_execute,
-                                    fftwf_destroy_plan);
+    transform<float>(it, forward);
   } else {
-    transform<double, fftw_complex>(it, forward, fftw_plan_dft_r2c_3d, fftw_plan_dft_c2r_3d, fftw_execute,
-                                    fftw_destroy_plan);
+    transform<double>(it, forward);
   }
 }
 

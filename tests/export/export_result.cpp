@@ -104,6 +104,24 @@ TEST_CASE("a PLY file has a line for every number of a vertex") {
   CHECK(f32(ply, body) == doctest::Approx(files.surface.positions[0].x));
 }
 
+TEST_CASE("no line of a PLY file's head is longer than MeshLab reads, and none is cut inside a character") {
+  RowResult result;
+  ExportOptions options;
+  options.title = std::string(399, 'a');
+  for (int i = 0; i < 400; ++i) options.title += "\u00e5";
+  options.title += " counted_faces 1";
+  const std::string ply = result.exported("ply", options);
+  std::istringstream head(ply.substr(0, ply.find("end_header\n")));
+  std::string title;
+  for (std::string line; std::getline(head, line);) {
+    CHECK(line.size() <= 511);
+    CHECK((line.size() < 11 || (static_cast<unsigned char>(line[10]) & 0xC0U) != 0x80U));
+    if (title.empty() ? line.rfind("comment Title: ", 0) == 0 : line.rfind("comment   ", 0) == 0)
+      title += title.empty() ? line.substr(15) : line.substr(10);
+  }
+  CHECK(title.rfind(std::string(399, 'a') + "\u00e5\u00e5", 0) == 0);
+}
+
 TEST_CASE("residues carry their values in PDB and mmCIF files, in the target's frame") {
   RowResult result;
   const CsvTable table = read_csv(result.prefix + ".residues.csv");

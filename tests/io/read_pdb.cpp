@@ -184,6 +184,21 @@ TEST_CASE("read_pdb: what follows the coordinates may be missing or odd") {
   CHECK(xs(molecule_of_pdb(text_of({}).substr(0, 78) + "x+\r\n")) == Xs{0});  // a charge that gemmi refuses
 }
 
+TEST_CASE("read_pdb: of two residues in one place one is read, with the atoms that both share (1EJG's PRO/SER 22)") {
+  const auto atom = [](const char* name, char location, const char* residue, double x, double occupancy) {
+    return text_of({"ATOM", name, location, residue, 'A', 22, ' ', x, occupancy});
+  };
+  const std::string text = atom(" N  ", ' ', "PRO ", 0, 1) + atom(" CA ", 'A', "PRO ", 1, 0.4) +
+                           atom(" CD ", 'A', "PRO ", 2, 0.4) + atom(" CA ", 'B', "SER ", 3, 0.6) +
+                           atom(" OG ", 'B', "SER ", 4, 0.6);
+  const Molecule m = molecule_of_pdb(text);
+  CHECK(xs(m) == Xs{0, 3, 4});
+  for (const Residue& residue : m.residues) CHECK(residue.name == "SER");
+  CHECK(m.residues.size() == 1);
+  // One number twice without locations is two residues.
+  CHECK(molecule_of_pdb(atom(" CA ", ' ', "PRO ", 1, 1) + atom(" CA ", ' ', "SER ", 3, 1)).residues.size() == 2);
+}
+
 TEST_CASE("read_pdb: filters") {
   const std::string text = text_of({}) + text_of({"HETATM", "ZN  ", ' ', " ZN ", 'A', 2, ' ', 1, 1, "ZN"}) +
                            text_of({"HETATM", " O  ", ' ', "HOH ", 'A', 3, ' ', 2, 1, " O"});

@@ -95,6 +95,16 @@ def files(tmp_path_factory):
         arrays["radii"] = arrays["radii"] * scale
         paths[name] = str(folder / f"{name}.pqr")
         espdiff.State.from_arrays(**arrays, name=name).save(paths[name])
+        # Water and salt in a cell, for which a continuum stands.
+        lines = pathlib.Path(paths[name]).read_text().splitlines()[:-1]
+        for i, (x, y) in enumerate((x, y) for x in range(-18, 19, 4) for y in range(-18, 19, 4)):
+            atoms = [("NA", "NA", 0, 1.0)] if i % 20 == 0 else [
+                ("OW", "HOH", 0, -0.834), ("HW1", "HOH", 0.9, 0.417), ("HW2", "HOH", -0.9, 0.417)]
+            lines += [f"ATOM {1000 + 3 * i} {atom} {residue} W {100 + i} {x + d:.3f} {y:.3f} 16.000 {q:.4f} 1.400"
+                      for atom, residue, d, q in atoms]
+        paths["wet-" + name] = str(folder / f"wet-{name}.pqr")
+        cell = "CRYST1   40.000   40.000   40.000  90.00  90.00  90.00 P 1           1\n"
+        pathlib.Path(paths["wet-" + name]).write_text(cell + "\n".join(lines) + "\nEND\n")
     text = "".join(f"MODEL {i}\n{pathlib.Path(paths[name]).read_text().replace('END', '')}ENDMDL\n"
                    for i, name in enumerate("abc", 1))
     paths["frames"] = str(folder / "frames.pqr")
@@ -110,6 +120,8 @@ PAIRS = {
     "element radii": ("a b", "coulomb", {"radii": "element"}),
     "selection": ("a b", "coulomb", {"select": "1-9"}),
     "region and patch": ("a b", "coulomb", {"region": "1-4", "patch": "end=10-12"}),
+    "explicit water": ("wet-a wet-b", "auto", {}),
+    "pme in water": ("wet-a wet-b", "pme", {}),
     "a field": ("a b", "coulomb", {"field": "hydrophobicity"}),
 }
 

@@ -33,7 +33,14 @@ def test_metadata():
 def test_one_version():
     assert espdiff.__version__ == re.search(r'^version = "(.*)"', PYPROJECT, re.MULTILINE).group(1)
     assert re.fullmatch(r"\d+\.\d+\.\d+", espdiff.__version__)
-    assert f"project(espdiff VERSION {espdiff.__version__} " in (REPOSITORY / "CMakeLists.txt").read_text()
+    for name, text in {
+        "CMakeLists.txt": "project(espdiff VERSION {} ",
+        "CITATION.cff": "\nversion: {}\n",
+        "CHANGELOG.md": "\n## [{}] - ",
+        "conda/recipe.yaml": 'version: "{}"',
+        "debian/changelog": "espdiff ({}-",
+    }.items():
+        assert text.format(espdiff.__version__) in (REPOSITORY / name).read_text(), name
 
 
 def test_every_public_name_is_documented():

@@ -10,8 +10,10 @@
 #include "engine/engine.h"
 #include "engine/select_engine.h"
 #include "io/read_csv.h"
+#include "prepare/load_state.h"
 #include "prepare/take_charges.h"
 #include "support/test_data.h"
+#include "support/text.h"
 #include "trajectory/frame_files.h"
 #include "trajectory/made_series_head.h"
 
@@ -133,6 +135,24 @@ TEST_CASE("a row a frame, with the values of the pair, and what the rows were ma
   CHECK(read_file(folder.file("a.csv")).rfind("# espdiff: 1\n# frames: all\n# settings: \nframe,reference_frame,", 0) ==
         0);
   CHECK(folder.n_files() == 1);
+}
+
+TEST_CASE("a row has what the preparation of its states left doubtful among its warnings") {
+  const Motion motion;
+  const ScratchFolder folder;
+  Runner runner{motion};
+  espdiff::StateOrigin source, target;
+  source.preparation.emplace();
+  source.preparation->gaps = {"between GLY 10 and ALA 15 of chain A"};
+  runner.read = [&](int frame) {
+    return StepInput{motion.source.input(), motion.side(frame).input(), {}, &source, &target};
+  };
+  TrajectoryPlan run = motion.plan();
+  run.frames = {1};
+  runner(run, folder.file("a.csv"));
+  const SeriesCsv file(folder.file("a.csv"), kSeriesHead, ExistingFile::kResume);
+  REQUIRE(file.rows().size() == 1);
+  CHECK(contains(file.rows()[0]["warnings"], "the source lacks residues between GLY 10 and ALA 15 of chain A"));
 }
 
 TEST_CASE("a run that broke off anywhere goes on with the same rows") {

@@ -87,6 +87,19 @@ TEST_CASE("array names are read, and errors list them") {
         "slip");
 }
 
+TEST_CASE("a field that is zero on most of the surface gets the range of the rest") {
+  std::vector<float> values(80, 0);
+  for (int i = 1; i <= 10; ++i)
+    values.insert(values.end(), {0.1F * static_cast<float>(i), -0.1F * static_cast<float>(i)});
+  CHECK(ColourScale(RenderArray::kDifference, values, 0).high() == doctest::Approx(1).epsilon(1e-6));
+  values.resize(160, 1e-5F);  // nearly zero is no value of its own
+  CHECK(ColourScale(RenderArray::kDifference, values, 0).high() == doctest::Approx(1).epsilon(1e-6));
+  const std::vector<float> half = {0, 0, 0, 1, 2, 3};  // not most: they count
+  ScaleRange three_fifths;
+  three_fifths.percentile = 60;
+  CHECK(ColourScale(RenderArray::kDifference, half, three_fifths).high() == 1);
+}
+
 TEST_CASE("ranges by percentile, and with both ends given") {
   std::vector<float> values;
   for (int i = 1; i <= 100; ++i) values.push_back(static_cast<float>(i % 2 == 0 ? i : -i));

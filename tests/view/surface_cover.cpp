@@ -13,22 +13,21 @@ namespace {
 constexpr int kSide = 9;
 
 /// A flat square of 9 x 9 vertices, moved up by 2 A; its middle is unmatched, and lost.
-SurfaceFile torn_sheet(std::vector<Vec3f>& start) {
+SurfaceFile torn_sheet(std::vector<Vec3f>& start, int side = kSide, int half = 2) {
   SurfaceFile sheet;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      const bool is_lost = std::abs(x - 4) < 2 && std::abs(y - 4) < 2;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const bool is_lost = std::abs(x - side / 2) < half && std::abs(y - side / 2) < half;
       start.push_back({static_cast<float>(x), static_cast<float>(y), 0});
       sheet.positions.push_back(is_lost ? Vec3d{100, 100, 100} : Vec3d{x + 0.0, y + 0.0, 2});
       sheet.normals.push_back({0, 0, 1});
       sheet.residue_index.push_back(x < 3 ? 7.0F : 8.0F);
     }
   }
-  for (int y = 0; y + 1 < kSide; ++y) {
-    for (int x = 0; x + 1 < kSide; ++x) {
-      const auto at = static_cast<std::uint32_t>(y * kSide + x);
-      const auto side = static_cast<std::uint32_t>(kSide);
-      for (const Triangle& t : {Triangle{at, at + 1, at + side}, Triangle{at + 1, at + side + 1, at + side}}) {
+  for (int y = 0; y + 1 < side; ++y) {
+    for (int x = 0; x + 1 < side; ++x) {
+      const auto at = static_cast<std::uint32_t>(y * side + x), up = at + static_cast<std::uint32_t>(side);
+      for (const Triangle& t : {Triangle{at, at + 1, up}, Triangle{at + 1, up + 1, up}}) {
         bool is_lost = false;
         for (const std::uint32_t corner : t) is_lost = is_lost || sheet.positions[corner].x == 100;
         sheet.triangles.push_back(t);
@@ -55,6 +54,19 @@ TEST_CASE("unmatched parts move as their surroundings do, and colours end in mat
     }
   }
   CHECK(cover.matched[0] > 0.5F);
+}
+
+TEST_CASE("the inside of a tear is no surface; its border is, and so is an unmatched part that keeps its size") {
+  constexpr int kWide = 41, kMiddle = 20 * kWide + 20;
+  std::vector<Vec3f> start;
+  const SurfaceFile sheet = torn_sheet(start, kWide, 12);
+  std::vector<Vec3f> small = start;  // on the source a third as wide
+  for (Vec3f& p : small) p = {p.x / 3, p.y / 3, p.z};
+  const SurfaceCover torn = cover_of(sheet, small), whole = cover_of(sheet, start);
+  CHECK(torn.matched[kMiddle] < -0.5F);
+  CHECK(torn.matched[kMiddle + 12] > -0.4F);
+  CHECK(torn.matched[kMiddle + 15] > 0.5F);
+  CHECK(whole.matched[kMiddle] > -1e-6F);
 }
 
 TEST_CASE("a surface without unmatched parts is drawn as it is") {

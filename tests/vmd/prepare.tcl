@@ -73,18 +73,24 @@ test "the window offers it, and says why" {
 test "Compare offers it for both sides: two clicks from the structures to the picture" {
     foreach side {source target} {
         set path [::espdiff::gui::prepared_path $side]
-        check "beside the file, or here: $path" {[string match "*-prepared*.pqr" $path] && ![file exists $path]}
+        check_equal "in the working folder: $path" [file dirname $path] [pwd]
+        check "a new name" {[string match "*-prepared*.pqr" $path] && ![file exists $path]}
     }
-    # Inputs of others are not written beside.
+    # Nothing of this test stays in the working folder.
     rename ::espdiff::gui::prepared_path ::prepared_beside
     proc ::espdiff::gui::prepared_path {side} { return $::scratch/$side-offered.pqr }
     set question ""
     rename tk_messageBox tk_box
-    proc tk_messageBox {args} { set ::question [dict get $args -message]; return $::answer }
+    proc tk_messageBox {args} {
+        set ::question [dict get $args -message]
+        set ::detail [dict get $args -detail]
+        return $::answer
+    }
     array set ::espdiff::gui::setting {grid-spacing 2}
     set answer cancel
     [widget compare] invoke
     check_equal "asked by name" $question "No charges: $::espdiff::gui::form(source,mol) and $::espdiff::gui::form(target,mol)"
+    check "the files are named: $detail" {[string match "*source-offered.pqr*target-offered.pqr*$scratch*" $detail]}
     check_equal "nothing runs" [list $::espdiff::gui::running [espdiff handles]] {{} {}}
     set answer yes
     set offered [array get ::espdiff::gui::form]

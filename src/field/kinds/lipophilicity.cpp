@@ -114,7 +114,7 @@ FieldKind lipophilicity_kind() {
       contributions);
   kind.field = [of_atoms = kind.field](const FieldKind& self, const std::string& argument) {
     Field field = of_atoms(self, argument);
-    field.make = [make = field.make](const Molecule& molecule, FieldSide side) {
+    field.make = [make = field.make](const Molecule& molecule, const FieldSide& side) {
       StateField of_state = make(molecule, side);
       of_state.weight = AtomWeight::kDecaySum;
       return of_state;

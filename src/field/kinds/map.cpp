@@ -16,12 +16,11 @@ FieldKind map_kind() {
       nullptr};
   kind.field = [](const FieldKind& self, const std::string& argument) {
     const SideFiles files(self.quantity.name, argument);
-    const auto source = std::make_shared<const Grid>(read_grid(files.of(FieldSide::kSource)));
-    const auto target = files.is_one() ? source : std::make_shared<const Grid>(read_grid(files.of(FieldSide::kTarget)));
     Field field{self.quantity, "", "", nullptr};
-    field.make = [source, target](const Molecule&, FieldSide side) {
+    field.make = [files](const Molecule&, const FieldSide& side) {
       StateField of_state;
-      of_state.map = side == FieldSide::kSource ? source : target;
+      of_state.map = std::make_shared<const Grid>(read_grid(files.own_of(side)));
+      of_state.files = files.own_with_sum(side);
       return of_state;
     };
     field.files = files.with_sums();
