@@ -144,6 +144,10 @@ LinePlot along_table(const PlotArguments& a, const CsvTable& table) {
     throw InputError("--source and --both-ways need a matrix; give its OUT.json instead of " + table.path);
   if (table.find("source") >= 0 && table.find("target") >= 0)
     throw InputError(table.path + ": a matrix is drawn from its JSON file; give that file");
+  if (table.find("significant_area_A2") > 0 && a.metrics.empty())
+    throw InputError(table.path +
+                     ": is a table of an ensemble, which `espdiff report` and `render` show; its columns "
+                     "are drawn by --metric, such as --metric difference");
   if (table.rows.empty()) throw FormatError(table.path, 0, "there are no rows to draw");
   const std::string x_name = a.x.empty() ? (table.find("frame") >= 0 ? "frame" : table.columns.front()) : a.x;
   const std::size_t x = table.require(x_name);

@@ -65,7 +65,7 @@ std::string as_multiple(const char* role, const MapCheck& check) {
          to_string(check.kind);
 }
 
-Warning refuse(const Message& text) { return {text + "; " + option("trust-maps", "1") + " takes it as it is", true}; }
+Warning refuse(const Message& text) { return {text + "; " + switched_on("trust-maps") + " takes it as it is", true}; }
 
 /// What the slope says of a map that belongs to its molecule.
 void judge_slope(const char* role, const Grid& map, const MapCheck& check, double temperature_K,
@@ -215,7 +215,17 @@ void refuse_vacuum_against_solvent(const CompareResult& result) {
     throw InputError(two_kinds(a, b) +
                      "; one in vacuum is tens of times one in salt water: compute both alike, or compare them as they "
                      "are by " +
-                     option("trust-maps", "1"));
+                     switched_on("trust-maps"));
+}
+
+void refuse_other_kind(const std::string& name_of_first, const std::shared_ptr<const MapCheck>& first,
+                       const std::shared_ptr<const MapCheck>& other) {
+  const Kind a = kind_of(nullptr, first), b = kind_of(nullptr, other);
+  if (is_vacuum_against_solvent(a, b))
+    throw InputError("its potential is a " + b.words + ", and that of " + name_of_first + " a " + a.words +
+                     "; one in vacuum is tens of times one in salt water: give maps of one kind, or take them as they "
+                     "are by " +
+                     switched_on("trust-maps"));
 }
 
 std::vector<Warning> water_warnings(const CompareResult& result) {

@@ -1,7 +1,9 @@
 // map_warnings.h: what is wrong with the potentials of two states, given or computed, before they are compared.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "compare/result.h"
@@ -28,6 +30,12 @@ void pair_warnings(const CompareInput& source, const CompareInput& target, const
 /// A potential in vacuum against one in solvent: their difference is the solvent's, whatever the states.
 /// @throws InputError  where both kinds are known
 void refuse_vacuum_against_solvent(const CompareResult& result);
+
+/// The same of the given maps of an ensemble.
+/// @param first, other may be null: not checked
+/// @throws InputError  names the first; the caller names the other
+void refuse_other_kind(const std::string& name_of_first, const std::shared_ptr<const MapCheck>& first,
+                       const std::shared_ptr<const MapCheck>& other);
 
 /// Single frames with explicit water, by PME: refuses, and no option takes it as it is.
 std::vector<Warning> water_warnings(const CompareResult& result);

@@ -59,6 +59,8 @@ struct TemplateMapping::Parts {
   GridPtr map{};
   TemplateSurface described{};
   std::vector<std::vector<double>> reading_weights{};  ///< [reading][vertex of the template]
+  std::shared_ptr<const MapCheck> first_check{};       ///< of the given map that all others are to be like
+  std::string first_name{};
 
   float isovalue() const { return static_cast<float>(options.surface.isovalue); }
 
@@ -101,6 +103,7 @@ struct TemplateMapping::Parts {
       warning.refuses = warning.refuses && !options.trust_maps;
       result.warnings.push_back(std::move(warning));
     }
+    if (!options.trust_maps) refuse_other_kind(first_name, first_check, result.target_map_check);
   }
 
   std::vector<MovingAtom> paths_to(const CompareInput& frame, const CommonFrame& common, const AtomPairing& pairing,
@@ -209,6 +212,22 @@ const TemplateSurface& TemplateMapping::surface() const { return parts_->describ
 
 void TemplateMapping::take_apart(std::vector<std::vector<double>> weights) {
   parts_->reading_weights = std::move(weights);
+}
+
+void TemplateMapping::check_kind(const CompareInput& frame, const std::string& name, const Progress& progress) {
+  Parts& p = *parts_;
+  if (frame.map == nullptr) return;
+  std::vector<std::pair<std::string, double>> times;
+  StageClock clock(times);
+  CompareResult result;
+  const CommonFrame common = align(*p.source.molecule, *frame.molecule, p.options, result);
+  const Surface surface =
+      build_surface(p.engine, *frame.molecule, common.from_target, p.options.surface, progress, clock);
+  p.check_map(frame, surface, common, result, progress);
+  if (p.first_check || !result.target_map_check) return;
+  if (result.target_map_check->best().correlation < kLeastMapCorrelation) return;
+  p.first_check = result.target_map_check;
+  p.first_name = name;
 }
 
 TemplateFrame TemplateMapping::map(const CompareInput& frame, bool check_slip, const Progress& progress) {

@@ -66,6 +66,11 @@ class TemplateMapping {
   /// Means of each frame that is mapped from now on, whose causes are found as well; see Engine::contributions().
   /// @param weights [reading][vertex of the template] area; a vertex without a value in a frame does not count there
   void take_apart(std::vector<std::vector<double>> weights);
+  /// Compares the kind of a frame's given map, vacuum or solvent, with that of the first frame this was called for.
+  /// Frames that are mapped from now on are compared with it too.
+  /// @param name of the frame, for messages
+  /// @throws InputError (another kind, unless the options trust maps), and as compare()
+  void check_kind(const CompareInput& frame, const std::string& name, const Progress& progress);
   /// @param frame      has a map
   /// @param check_slip is part of the verdict then; it changes no value
   /// @throws as compare(), Engine::contributions()

@@ -80,6 +80,26 @@ EnsembleFrame numbers_of(const TemplateFrame& frame, const MeshGraph& graph) {
           frame.reason};
 }
 
+/// A group in vacuum against one in water is refused before the work: by the first frame of each.
+void check_kinds(TemplateMapping& mapping, const EnsemblePlan& plan, const EnsembleRun& run,
+                 const std::function<CompareInput(std::size_t)>& read, const Progress& progress) {
+  std::string before;
+  std::size_t first = 0;
+  for (const EnsembleReplicate& replicate : plan.replicates) {
+    if (replicate.group != before && replicate.n_frames > 0) {
+      const std::string name = plan.name_of(first);
+      try {
+        mapping.check_kind(read(first), name, progress);
+      } catch (const InputError& error) {
+        // A frame that cannot be read is told when its turn comes.
+        if (!run.skip_errors) throw InputError(name + ": " + error.message());
+      }
+    }
+    before = replicate.group;
+    first += replicate.n_frames;
+  }
+}
+
 void add_times(std::vector<std::pair<std::string, double>>& sums,
                const std::vector<std::pair<std::string, double>>& times) {
   for (const auto& [stage, ms] : times) {
@@ -103,6 +123,7 @@ EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInpu
   for (const Residue& residue : source.molecule->residues) plan.residues.push_back(residue_label(residue));
   TemplateMapping mapping(engine, source, options, progress);
   const MeshGraph graph = make_mesh_graph(mapping.surface().positions, mapping.surface().triangles);
+  if (plan.potential == "maps") check_kinds(mapping, plan, run, read, progress);
   EnsembleReport report;
   report.path = ensemble_path(run.output, run.shard);
   EnsembleFile file = open_file(report.path, plan, mapping.surface(), run);

@@ -49,9 +49,9 @@ Hdf5Reader::Hdf5Reader(const OpenFile& file, std::string path)
     : file_(file), path_(std::move(path)), n_bytes_(file.size()) {
   constexpr std::size_t kSuperblock = 96;
   const std::string head = n_bytes_ < kSuperblock ? std::string() : block(0, kSuperblock);
-  if (!begins_with(head, "\x89HDF\r\n\x1a\n")) fail("not an HDF5 file");
+  if (!begins_with(head, "\x89HDF\r\n\x1a\n")) fail("not the OUT.h5 of an ensemble: no HDF5 file");
   const bool is_ours = head[8] == 0 && head[13] == 8 && head[14] == 8 && number(head, 24, 8) == 0;
-  if (!is_ours) fail("an HDF5 file of another form than espdiff writes");
+  if (!is_ours) fail("not the OUT.h5 of an ensemble: an HDF5 file of another form");
   root_ = number(head, 64, 8);
 }
 

@@ -14,19 +14,7 @@
 #include "plot/colour_map.h"
 
 namespace espdiff {
-namespace {
-
-/// The line of gnuplot's messages that names the error; the other lines show its place in the script.
-std::string first_message(const std::string& text) {
-  std::istringstream lines(text);
-  std::string last;
-  for (std::string line; std::getline(lines, line);) {
-    if (!trimmed(line).empty()) last = std::string(trimmed(line));
-  }
-  return last.empty() ? "it gave no reason" : last;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 PictureFormat picture_format(const std::string& path) {
   const std::string ending = lower_case(std::filesystem::path(path).extension().string());
@@ -89,8 +77,8 @@ std::string run_gnuplot(const std::string& script) {
   // Without the user's own ~/.gnuplot (-d).
   const ProgramResult result = run_program({{"gnuplot", "-d"}, script, {}, 0, {}});
   if (result.status != 0 || result.output.empty())
-    throw DeviceError("gnuplot failed: " + first_message(result.messages) +
-                      "; version 5.2 or later with pngcairo and svg is needed (Debian: gnuplot-nox)");
+    throw DeviceError("gnuplot could not draw (exit status " + std::to_string(result.status) +
+                      "); version 5.2 or later with its terminals pngcairo and svg is needed (Debian: gnuplot-nox)");
   return result.output;
 }
 

@@ -26,11 +26,11 @@
 #include "io/select_atoms.h"
 #include "io/sha256.h"
 #include "io/temporary_folder.h"
-#include "io/text_cursor.h"
 #include "io/write_pdb.h"
 #include "prepare/cache.h"
 #include "prepare/ligand.h"
 #include "prepare/modified_residues.h"
+#include "prepare/separate_atoms.h"
 
 namespace espdiff {
 
@@ -207,7 +207,7 @@ struct PropkaError : InputError {
 
 constexpr const char* kPropkaMark = "does not seem to contain any";
 
-/// The reason in a log: its last error, in our words where they are known.
+/// The reason in a log, in our words. A text that is not known may name files that are gone, and is not passed on.
 std::string reason_in(const std::string& log) {
   static const std::vector<std::pair<const char*, const char*>> known = {
       {kPropkaMark, "PROPKA cannot use it, such as a peptide of few residues"},
@@ -216,6 +216,8 @@ std::string reason_in(const std::string& log) {
       {"missing too many", "more than a tenth of the heavy atoms of its residues are missing"},
       {"does not contain any", "no residue of it is known to the force field"},
       {"Unable to debump", "atoms overlap, and moving them apart failed"},
+      {"while trying to debump", "atoms overlap, and moving them apart failed"},
+      {"Too many chains", "it has more chains than PDB2PQR has names for"},
       {"non-integer charge", "the sum of the charges is not a whole number"},
       {"noninteger", "the sum of the charges is not a whole number"},
       {"Found no known", "no residue of it is known to the force field"},
@@ -224,14 +226,7 @@ std::string reason_in(const std::string& log) {
   for (const auto& [mark, words] : known) {
     if (log.find(mark) != std::string::npos) return words;
   }
-  std::string last;
-  std::istringstream lines(log);
-  for (std::string line; std::getline(lines, line);) {
-    const std::string text(trimmed(line));
-    if (text.rfind("CRITICAL:", 0) == 0 && text.find("Giving up") == std::string::npos)
-      last = text.substr(std::string("CRITICAL:").size());
-  }
-  return last.empty() ? "it gave no reason" : "it says " + in_quotes(last);
+  return "its reason is not known here, and pdb2pqr30 prints it when it is run on the file";
 }
 
 /// "PDB2PQR v3.5.2"
@@ -549,6 +544,7 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
     done.notes.emplace_back("force field AMBER, since PARSE has no DNA");
   Molecule before = without_water(molecule, !states.empty());
   require_residues(before);
+  require_separate_atoms(before);
   const bool titrates = has_kind(before, ResidueKind::kAminoAcid), with_propka = states.empty() && titrates;
   done.propka = titrates;
   if (!titrates) done.notes.emplace_back("no PROPKA, since there are no amino acids, which are all that it titrates");

@@ -90,6 +90,9 @@ std::string options_of(const RecordJson& record) {
 }  // namespace
 
 nlohmann::ordered_json read_comparison_record(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+    throw IoError(path, "cannot be read: No such file or directory; give the prefix OUT of a result, or its OUT.json");
   const FileContent file = read_input(path);
   require_memory_for_json(file.content, path);
   RecordJson record = RecordJson::parse(file.content, nullptr, false);

@@ -222,6 +222,15 @@ double correlation(const CsvTable& table, int area, int weight, int own, int map
   return xy / std::sqrt(xx * yy);
 }
 
+/// Whether the record says that the residues' correlation was not judged: of noise with noise it has none.
+bool residues_not_checked(const ResultRecord& record) {
+  const std::string list = "certificate/not_checked";
+  for (std::size_t k = 0; k < record.size(list); ++k) {
+    if (record.text(list + "/" + std::to_string(k)) == "residues") return record.size("certificate/residues") == 0;
+  }
+  return false;
+}
+
 }  // namespace
 
 void add_mapped_lines(const MappedFile& file, const ResultRecord& record, Lines& lines) {
@@ -331,7 +340,7 @@ void add_residue_lines(const MappedFile& file, const ResultRecord& record, const
     for (std::size_t r = 0; r < n; ++r) values[r] = known && area[r] > 0 ? values[r] / area[r] : kNaN;
     check(name, values);
   }
-  if (!has_potential) return;
+  if (!has_potential || residues_not_checked(record)) return;
   const int own = column(table, "own_difference"), own_area = column(table, "own_area"),
             mapped = column(table, "mean_signed_difference"), of_area = column(table, "area");
   if (own >= 0 && own_area >= 0 && mapped >= 0 && of_area >= 0)

@@ -485,6 +485,53 @@ TEST_CASE(
   check_linked_outputs(in.folder, "ensemble --from all.h5 --states -q -o again --device cpu", {"all.h5"});
 }
 
+TEST_CASE("maps in vacuum of one group against maps in water of the other are refused before the work") {
+  const ScratchFolder folder;
+  // Enough charges for a map to be checked.
+  std::string row;
+  for (int i = 0; i < 24; ++i) {
+    char line[128];
+    std::snprintf(line, sizeof line, "ATOM %d CA ALA A %d %.3f %.3f %.3f %.1f 2.2\n", i + 1, i + 1, 2.4 * i,
+                  3 * std::sin(1.7 * i), 3 * std::cos(0.9 * i), i % 3 == 0 ? 1.0 : -0.4);
+    row += line;
+  }
+  folder.write("row.pqr", row);
+  for (const char* name : {"a1", "a2", "b1", "b2"})
+    folder.write(std::string(name) + ".pqr",
+                 "REMARK " + std::string(name) + "\nMODEL 1\n" + row + "ENDMDL\nMODEL 2\n" + row + "ENDMDL\n");
+  const auto run = [&](const std::string& arguments) {
+    return run_espdiff(arguments + " --device cpu --threads 1", "cd " + folder.file("") + " && ");
+  };
+  for (const char* map :
+       {"vacuum.dx --method coulomb --grid 2", "vacuum2.dx --method coulomb --grid 2 --dielectric 1.1",
+        "water.dx --method pb --pb-spacing 1.5", "water2.dx --method pb --pb-spacing 1.4"})
+    REQUIRE(run(std::string("potential row.pqr -o ") + map).status == 0);
+  const auto give = [&](const std::string& map, const std::string& replicate) {
+    folder.write(replicate + ".0.dx", read_file(folder.file(map + ".dx")));
+    folder.write(replicate + ".1.dx", read_file(folder.file(map + "2.dx")));
+  };
+  for (const char* replicate : {"a1", "a2"}) give("vacuum", replicate);
+  for (const char* replicate : {"b1", "b2"}) give("water", replicate);
+  const std::string both =
+      "ensemble --grid-spacing 1.5 --group A a1.pqr a2.pqr --group B b1.pqr b2.pqr -q -o out "
+      "--maps 'A={replicate}.%d.dx' --maps 'B={replicate}.%d.dx'";
+  const Outcome out = run(both);
+  CHECK(out.status == 2);
+  CHECK(contains(out.err,
+                 "\nespdiff: B, replicate b1, frame 0: its potential is a given map as in salt water, and that of A, "
+                 "replicate a1, frame 0 a given map in vacuum; one in vacuum is tens of times one in salt water: give "
+                 "maps of one kind, or take them as they are by --trust-maps\n"));
+  CHECK(!std::filesystem::exists(folder.file("out.h5")));
+  const Outcome trusted = run(both + " --trust-maps");
+  CHECK_MESSAGE(trusted.status == 0, trusted.err);
+  // One replicate among others is found when its turn comes.
+  for (const char* replicate : {"a1", "a2"}) give("water", replicate);
+  const Outcome water = run(both + " --overwrite");
+  REQUIRE_MESSAGE(water.status == 0, water.err);
+  give("vacuum", "b2");
+  CHECK(contains(run(both + " --overwrite").err, "B, replicate b2, frame 0: its potential is a given map in vacuum"));
+}
+
 TEST_CASE("maps that a list or a pattern names are not replaced") {
   const Runs in;
   const std::string map = constant_dx(9, 6.0, 1.0, "kT/e", 8.0);

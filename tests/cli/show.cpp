@@ -97,5 +97,7 @@ TEST_CASE("what is no comparison is refused in one line") {
   const Outcome other = run_espdiff("show " + folder.write("out.json", "{}"));
   CHECK(other.status == 2);
   CHECK(contains(other.err, "not a record that `espdiff compare` wrote; compare again"));
-  CHECK(run_espdiff("show " + folder.file("none")).status == 2);
+  const Outcome none = run_espdiff("show " + folder.file("none"));
+  CHECK(none.status == 2);
+  CHECK(contains(none.err, "none.json: cannot be read: No such file or directory; give the prefix OUT of a result"));
 }

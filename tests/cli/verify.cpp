@@ -66,6 +66,19 @@ TEST_CASE("coarse lattices are verified: tolerances follow from the spacing") {
   }
 }
 
+TEST_CASE("a state against itself is verified: its residues' correlation is one of noise, and in no file") {
+  const ScratchFolder folder;
+  write_file(folder.file("a.pqr"), bent_row(0, 12));
+  const std::string prefix = folder.file("self");
+  REQUIRE(run_espdiff("compare " + folder.file("a.pqr") + " " + folder.file("a.pqr") +
+                      " --potential coulomb --device cpu -q --exit-zero -o " + prefix)
+              .status == 0);
+  REQUIRE(contains(read_file(prefix + ".json"), "noise with noise"));
+  const Outcome verified = run_espdiff("verify " + prefix);
+  CAPTURE(verified.out);
+  CHECK(verified.status == 0);
+}
+
 TEST_CASE("a result of three atoms is verified, whose surface has no hollows") {
   const ScratchFolder folder;
   const std::string atoms =

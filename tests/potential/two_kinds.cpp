@@ -59,7 +59,7 @@ TEST_CASE("vacuum against solvent is refused, in either order; whoever insists i
   CHECK(message_of([] { said_of(kCoulomb, kPb); }) ==
         "two kinds of potential are compared: the source's is vacuum (Coulomb), the target's Poisson-Boltzmann, 0.15 "
         "mol/l; one in vacuum is tens of times one in salt water: compute both alike, or compare them as they are by "
-        "trust-maps 1");
+        "trust-maps");
   CHECK(has(message_of([] { said_of(kPb, of(PotentialMethod::kPme)); }),
             "the source's is Poisson-Boltzmann, 0.15 mol/l, the target's vacuum (PME without water"));
   CHECK(has(said_of(kCoulomb, kPb, true), "warns: two kinds of potential are compared: the source's is vacuum"));

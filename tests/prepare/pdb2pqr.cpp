@@ -20,6 +20,7 @@
 #include "io/write_pqr.h"
 #include "prepare/cache.h"
 #include "prepare/load_state.h"
+#include "prepare/separate_atoms.h"
 #include "support/test_data.h"
 
 using namespace espdiff;
@@ -305,8 +306,8 @@ TEST_CASE("prepare_molecule: the program gets fixed names in a folder of its own
   };
   program("for word; do echo \"$word\"; done > '" + folder.file("words") + "'; pwd >> '" + folder.file("words") +
           "'; stat -c %a . >> '" + folder.file("words") + "'; exit 1");
-  CHECK(message_of([&] { prepare(molecule); }).find("PDB2PQR cannot prepare it: it gave no reason; ") !=
-        std::string::npos);
+  const std::string unknown = "PDB2PQR cannot prepare it: its reason is not known here, and pdb2pqr30 prints it when";
+  CHECK(message_of([&] { prepare(molecule); }).find(unknown) != std::string::npos);
   std::istringstream words(espdiff_test::read_file(folder.file("words")));
   std::vector<std::string> lines;
   for (std::string line; std::getline(words, line);) lines.push_back(line);
@@ -319,6 +320,10 @@ TEST_CASE("prepare_molecule: the program gets fixed names in a folder of its own
   CHECK(lines[7] == "700");
   const auto is_empty = [&] { return std::filesystem::is_empty("-temporary folder"); };
   CHECK(is_empty());
+  program("echo 'CRITICAL: /tmp/gone/output.pqr: foreign words'; exit 1");
+  const std::string own = message_of([&] { prepare(molecule); });
+  CHECK(own.find(unknown) != std::string::npos);
+  CHECK(own.find("foreign") == std::string::npos);
   program("truncate -s 600M output.pqr; sleep 60");
   CHECK(message_of([&] { prepare(molecule); }).find("PDB2PQR wrote more than 512 MB and was ended") !=
         std::string::npos);
@@ -338,6 +343,33 @@ TEST_CASE("prepare_molecule: the program gets fixed names in a folder of its own
   unsetenv("TMPDIR");
   std::filesystem::current_path(before);
   CHECK_FALSE(std::filesystem::exists(folder.file("here")));
+}
+
+TEST_CASE("coordinates in nm and a chain on top of itself are refused before PDB2PQR, which moves atoms for minutes") {
+  const auto path = real_input("pqr_pdb2pqr/1AJJ.pdb");
+  if (!path || !has_pdb2pqr()) return;
+  const Molecule right = read_structure(*path, {1, false, false});
+  Molecule in_nm = right, doubled = right;
+  for (Vec3d& p : in_nm.positions) p = 0.1 * p;
+  const std::size_t n_residues = right.residues.size();
+  for (std::size_t r = 0; r < n_residues; ++r) {
+    doubled.residues.push_back(right.residues[r]);
+    doubled.residues.back().chain = "B";
+  }
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    doubled.atoms.push_back(right.atoms[i]);
+    doubled.atoms.back().residue += static_cast<std::int32_t>(n_residues);
+    doubled.positions.push_back(right.positions[i] + Vec3d{0.1, 0, 0});
+    doubled.radii.push_back(right.radii[i]);
+  }
+  CHECK_NOTHROW(require_separate_atoms(right));
+  for (const Molecule* molecule : {&in_nm, &doubled}) {
+    const std::string message = message_of([&] { prepare(*molecule); });
+    CAPTURE(message);
+    CHECK(message.find(" atoms lie within 0.5 A of another (N of ") != std::string::npos);
+    CHECK(message.find("): give coordinates in Angstrom, not in nm, and each chain and model once") !=
+          std::string::npos);
+  }
 }
 
 TEST_CASE("load_state: the target takes the source's protonation states") {
