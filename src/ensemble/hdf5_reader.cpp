@@ -56,8 +56,7 @@ Hdf5Reader::Hdf5Reader(const OpenFile& file, std::string path)
 }
 
 void Hdf5Reader::fail(const std::string& what) const {
-  throw FormatError(
-      path_, 0, what + "; give another file, or begin anew with another output or with " + switched_on("overwrite"));
+  throw FormatError(path_, 0, what + "; begin anew with another output, or with " + switched_on("overwrite"));
 }
 
 void Hdf5Reader::read_bytes(std::uint64_t address, void* bytes, std::size_t n) const {

@@ -162,9 +162,7 @@ TEST_CASE("other files and damage beyond the frames are refused") {
   const ScratchFolder folder;
   const std::string path = folder.write("text.h5", "not a file of numbers, but of words, which are longer than a head");
   CHECK(message_of([&] { EnsembleFile(path, false); }) ==
-        path +
-            ": not the OUT.h5 of an ensemble: no HDF5 file; give another file, or begin anew with another output or "
-            "with overwrite");
+        path + ": not the OUT.h5 of an ensemble: no HDF5 file; begin anew with another output, or with overwrite");
   CHECK(message_of([&] { EnsembleFile(folder.file("none.h5"), false); }).find("none.h5: cannot be opened: ") !=
         std::string::npos);
   EnsembleFile::create(path, planted_plan(3, 3, 5), planted_template(2));
