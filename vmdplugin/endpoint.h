@@ -19,9 +19,8 @@ namespace espdiff::vmdplugin {
 ///   file PATH ?model N? ?map MAP?
 ///   atoms LIST coordinates BYTES ?indices LIST? name TEXT radii_origin R charges_origin C ?input TEXT? ?cell LIST?
 ///   ?region LIST? ?values {NAME LIST ...}? ?map MAP?
-/// both with ?shapes_because TEXT?, the region's atoms as indices into the coordinates, values of fields of all atoms in
-/// the coordinates, and MAP: file PATH ?array NAME?
-/// ?unit U?, or memory NAME ?unit U?, or
+/// both with ?shapes_because TEXT?, the region's atoms as indices into the coordinates, values of fields of all atoms
+/// in the coordinates, and MAP: file PATH ?array NAME? ?unit U?, or memory NAME ?unit U?, or
 ///   memory NAME mean_over N charges LIST cell LIST ?KEY VALUE ...?: a mean of PME over N frames, in kT/e, or
 ///   kind pme|pb|coulomb ?charges LIST? ?radii LIST? ?water B? ?box CELL? ?because TEXT? ?KEY VALUE ...?, the keys
 ///   those of potential_settings()

@@ -215,7 +215,7 @@ Verb add_ensemble(CLI::App& app) {
   parser->add_option("-o,--output", a->study.run.output, "Prefix of the results")->required();
   add_run_options(*parser, *a);
   add_statistics_options(*parser, *a);
-  add_settings(*parser, a->settings, SettingsFor::kVariants);
+  add_settings(*parser, a->settings, SettingsFor::kFrames);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   set_help(*parser,

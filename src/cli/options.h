@@ -38,7 +38,8 @@ using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 /// What a verb does decides which settings it has.
 enum class SettingsFor {
   kPair,        ///< all
-  kVariants,    ///< of many structures alike: none of one side
+  kVariants,    ///< of many structures alike: none of one side, no patches of one state
+  kFrames,      ///< the same without fields: of an ensemble
   kSurface,     ///< those that one molecule's surface depends on
   kPreparation  ///< which atoms, and where charges come from
 };

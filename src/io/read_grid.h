@@ -8,8 +8,8 @@
 namespace espdiff {
 
 struct GridOptions {
-  std::string array;  ///< VTI point array to take; empty takes the active scalars, or the only array
-  std::string unit;   ///< of the potential, by take_unit(); empty takes the file's
+  std::string array{};  ///< VTI point array to take; empty takes the active scalars, or the only array
+  std::string unit{};   ///< of the potential, by take_unit(); empty takes the file's
 };
 
 /// Reads a grid: OpenDX as APBS, PMEPot and VMD write it (any axes; gzip too), VTI (ascii, binary, appended; any

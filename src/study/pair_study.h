@@ -17,9 +17,9 @@ namespace espdiff {
 struct PairStudy {
   StatePtr source, target;
   CompareOptions options;
-  PotentialRequest potential;
+  PotentialRequest potential{};
   bool each_by_itself = false, refuses_shapes = false;  ///< see StatesRequest
-  std::string command_line;
+  std::string command_line{};
   /// Called with the structures that are kept beside the results, when the states were read and nothing is computed
   /// yet; may be empty. It throws where one of them would replace an input.
   std::function<void(const std::vector<KeptFile>&)> check_kept{};

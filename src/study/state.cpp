@@ -166,7 +166,10 @@ ComparedState StateReader::compared(const State& given, StateRole role, LoadedSt
   std::string names;
   for (const std::string& name : given.given->names()) names += (names.empty() ? "" : ", ") + name;
   state.inputs.push_back({state.role == "structure" ? "array" : state.role + "_array",
-                          names + " of " + state.loaded.molecule.name, sha256_of(given.given->bytes()), {}, {}});
+                          names + " of " + state.loaded.molecule.name,
+                          sha256_of(given.given->bytes()),
+                          {},
+                          {}});
   return state;
 }
 
