@@ -82,7 +82,7 @@ TEST_CASE("a shell accepts the completion, which offers commands, options and ch
     CHECK(status == 0);
     return read_file(folder.file("answer"));
   };
-  CHECK(offered("espdiff com") == "compare completion\n");
+  CHECK(offered("espdiff com") == "compare complementarity completion\n");
   CHECK(offered("espdiff compare --source-m") == "--source-map --source-map-unit --source-model\n");
   CHECK(offered("espdiff compare a.pdb b.pdb --potential p") == "pb pme\n");
   CHECK(offered("espdiff ensemble --check") == "--check-template\n");
