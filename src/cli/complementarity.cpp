@@ -81,8 +81,7 @@ int complementarity_verb(const ComplementarityArguments& a, const Context& conte
 
 Verb add_complementarity(CLI::App& app) {
   auto a = std::make_shared<ComplementarityArguments>();
-  CLI::App* parser = app.add_subcommand(
-      "complementarity", "Measure the electrostatic complementarity of an interface");
+  CLI::App* parser = app.add_subcommand("complementarity", "Measure the electrostatic complementarity of an interface");
   parser->footer(
       "McCoy, Epa and Colman, J. Mol. Biol. 268, 570 (1997). Writes OUT.json, OUT.interface.csv (residues), "
       "OUT.first.vtp "
