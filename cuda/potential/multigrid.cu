@@ -66,7 +66,7 @@ struct RedResidual {
 ESPDIFF_GRID_KERNEL(RedResidual)
 
 /// r - A x for x in one or two parts, in double precision: float products are exact there.
-template <bool kTwoParts>
+template <bool TwoParts>
 struct ExactResidual {
   static constexpr bool kColoured = false;
   int colour;
@@ -76,7 +76,7 @@ struct ExactResidual {
   float* r;
 
   ESPDIFF_INLINE double whole(std::size_t p) const {
-    if constexpr (kTwoParts) return static_cast<double>(x[p]) + static_cast<double>(low[p]);
+    if constexpr (TwoParts) return static_cast<double>(x[p]) + static_cast<double>(low[p]);
     return static_cast<double>(x[p]);
   }
   ESPDIFF_INLINE double term(const float* e, std::size_t face, std::size_t p) const {

@@ -127,7 +127,7 @@ std::vector<std::uint8_t> turned_atoms(const Molecule& source, const Molecule& t
     for (const BothEnds& atom : residues[r].atoms) {
       if (is_of_backbone(atom.name)) continue;
       const std::optional<double> turn = residues[r].turn_of(atom, *backbone);
-      turned[atom.atom] = turn && *turn > kLeastTurn_deg ? 1 : 0;
+      turned[atom.atom] = turn && *turn > kLeastTurnDegrees ? 1 : 0;
     }
   }
   return turned;

@@ -63,6 +63,22 @@ Layout layout_of(const HeatMap& map) {
   return l;
 }
 
+/// Beside the scale, upwards; a title longer than the matrix is centred on the picture, in letters that fit into it.
+std::string title_of_scale(const HeatMap& map, const Layout& l, double n) {
+  const std::string title = map.title + (map.unit.empty() ? "" : " (" + map.unit + ")");
+  const double letters = 0.56 * static_cast<double>(longest({title})), margin = 8;
+  const double font = std::min(10.0, (l.size.height - margin) / letters);
+  std::ostringstream s;
+  s << "set label " << gnuplot_string(title) << " at screen " << 1 - 12 / l.size.width << ", ";
+  if (letters * font <= l.cell * n) {
+    s << "first " << 0.5 * (n - 1);
+  } else {
+    s << "screen 0.5";
+  }
+  s << " center rotate by 90 font '," << gnuplot_number(font) << "'\n";
+  return s.str();
+}
+
 void check(const HeatMap& map) {
   const std::size_t n = map.labels.size();
   if (n < 2 || map.values.size() != n * n || (!map.groups.empty() && map.groups.size() != n) ||
@@ -227,9 +243,8 @@ std::string heat_map_script(const HeatMap& map, PictureFormat format) {
     << 0.5 * (n - 1) << " center rotate by 90\n";
   s << "set colorbox user origin screen " << 1 - (l.right - 14) / l.size.width << ',' << l.bottom / l.size.height
     << " size screen " << 12 / l.size.width << ',' << l.side(order.size()) / l.size.height
-    << " border\nset cbtics scale 0.4 font ',9'\nset label "
-    << gnuplot_string(map.title + (map.unit.empty() ? "" : " (" + map.unit + ")")) << " at screen "
-    << 1 - 12 / l.size.width << ", first " << 0.5 * (n - 1) << " center rotate by 90\n";
+    << " border\nset cbtics scale 0.4 font ',9'\n"
+    << title_of_scale(map, l, n);
   s << rectangle(-0.5, -0.5, n - 0.5, n - 0.5,
                  std::string("behind fillcolor rgb '") + kNoValue + "' fillstyle solid 1 noborder");
   s << rectangle(-0.5, -0.5, n - 0.5, n - 0.5,

@@ -88,6 +88,19 @@ TEST_CASE("every label, group, title and unit of a heat map is text in the SVG")
     CHECK_MESSAGE(contains(text, word), std::string(word));
 }
 
+TEST_CASE("a title longer than the matrix is written in letters that fit into the picture") {
+  const std::string beside = "center rotate by 90 font ',", centred = "screen 0.5 " + beside;
+  HeatMap map = four();
+  CHECK(contains(heat_map_script(map, PictureFormat::kSvg), beside + "10'"));
+  CHECK_FALSE(contains(heat_map_script(map, PictureFormat::kSvg), centred));
+  map.title = "Mean absolute difference, hydrophobicity of the residues";
+  const std::string script = heat_map_script(map, PictureFormat::kSvg);
+  REQUIRE(contains(script, centred));
+  const double font = std::stod(script.substr(script.find(centred) + centred.size()));
+  CHECK(font > 4);
+  CHECK(font < 10);
+}
+
 TEST_CASE("every title, unit, name and key of lines is text in the SVG") {
   if (!has_gnuplot()) return;
   const ScratchFolder folder;
