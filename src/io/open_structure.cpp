@@ -48,10 +48,10 @@ TrajectoryOpener::TrajectoryOpener(std::string topology, std::string plugins, co
       progress_(progress),
       needs_coordinates_(needs_molfile_reader(topology_)) {}
 
-/// The surrounding program's reader, where VMD's are neither named nor found.
-const FrameReader* TrajectoryOpener::other_reader() {
+/// The surrounding program's reader, where VMD's are neither named nor found, or do not read such a file.
+const FrameReader* TrajectoryOpener::other_reader_of(const std::string& path) {
   plugins_ = find_molfile_folder(plugins_);
-  return plugins_.empty() ? frame_reader() : nullptr;
+  return plugins_.empty() || find_molfile_reader(plugins_, path) == nullptr ? frame_reader() : nullptr;
 }
 
 const MolfileReader& TrajectoryOpener::reader_of(const std::string& path) {
@@ -62,8 +62,10 @@ const MolfileReader& TrajectoryOpener::reader_of(const std::string& path) {
                           .set_next({frame_reader_remedy().empty() ? "python3 -m " : "", {}}));
   const MolfileReader* const reader = find_molfile_reader(plugins_, path);
   if (reader == nullptr)
-    throw InputError(path + ": no plugin of VMD in " + plugins_ +
-                     " reads files with this ending; give them the usual one (dcd, xtc, trr, nc, ...)");
+    throw InputError(Message(path + ": no plugin of VMD in " + plugins_ +
+                             " reads files with this ending; Python's espdiff reads it by MDAnalysis (in its "
+                             "repository: pip install '.[mda]')")
+                         .set_next({frame_reader_remedy().empty() ? "python3 -m " : "", {}}));
   return *reader;
 }
 
@@ -75,7 +77,7 @@ std::shared_ptr<const Molecule> TrajectoryOpener::atoms() {
     all = file.read({1, true, true, {}});
     sha256_ = file.sha256();
   } else {
-    const FrameReader* const other = other_reader();
+    const FrameReader* const other = other_reader_of(topology_);
     all = other != nullptr                             ? other->read_atoms(topology_)
           : plugins_.empty() && is_psf_name(topology_) ? read_psf_atoms(topology_)
                                                        : read_molfile_atoms(topology_, reader_of(topology_));
@@ -89,7 +91,7 @@ std::shared_ptr<const Molecule> TrajectoryOpener::atoms() {
 
 std::unique_ptr<StructureFile> TrajectoryOpener::open(const std::string& path) {
   if (!needs_molfile_reader(path)) return open_structure(path);
-  if (const FrameReader* const other = other_reader(); other != nullptr) {
+  if (const FrameReader* const other = other_reader_of(path); other != nullptr) {
     const std::shared_ptr<const Molecule> all = atoms();
     return std::make_unique<StructureFile>(other->open(path, all->size()), all);
   }

@@ -39,7 +39,7 @@ class TrajectoryOpener {
   std::unique_ptr<StructureFile> open(const std::string& path);
 
  private:
-  const FrameReader* other_reader();
+  const FrameReader* other_reader_of(const std::string& path);
   const MolfileReader& reader_of(const std::string& path);
   std::shared_ptr<const Molecule> atoms();
 

@@ -98,7 +98,8 @@ TEST_CASE("trajectories that cannot be read are refused by name, with the remedy
         made.folder.file("pipe.dcd") + ": is a pipe or a device; save its content as a file and give that");
   CHECK(message_of([&] { made.opener.open(made.folder.write("c.xtc", "2")); }) ==
         made.folder.file("c.xtc") + ": no plugin of VMD in " + made_plugins() +
-            " reads files with this ending; give them the usual one (dcd, xtc, trr, nc, ...)");
+            " reads files with this ending; Python's espdiff reads it by MDAnalysis (in its repository: pip install "
+            "'.[mda]')");
   CHECK(message_of([&] {
           TrajectoryOpener opener(made.folder.write("d.psf", "3\nN ALA 1 PROT -0.5\n"), made_plugins(), made.progress);
           opener.open(made.dcd);
