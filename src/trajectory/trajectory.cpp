@@ -150,8 +150,12 @@ void TrajectoryRun::restore_mapping() {
   } catch (const Error& error) {
     reason = error.what();
   }
-  // If the run was interrupted between a row and its mapping, the state belongs to the row before: compute the last row
-  // again.
+  // If the run was interrupted between a row and its mapping, the last row is computed again: from the source, or from
+  // the mapping of the row before, to which the state belongs.
+  if (rows.back()["start"] == "source") {
+    --position_;
+    return;
+  }
   try {
     if (rows.size() < 2 || !rows[rows.size() - 2].has_mapping()) throw InputError("there is no mapping before it");
     restored_ = read_mapping_of(rows[rows.size() - 2]);
@@ -242,10 +246,10 @@ const SeriesRow* TrajectoryRun::end_step(const SeriesRow& row) {
     if (residue_line_) residues_->add(*residue_line_, file_.fingerprint());
     residue_line_.reset();
     file_.add(row);
-    const auto state =
-        keeps_mappings() && !is_last && row["error"].empty() ? series_->state() : std::optional<SeriesState>();
-    if (state) write_series_state(state_path(), *state, state_fingerprint(row["frame"]));
   }
+  const auto state =
+      keeps_mappings() && !is_last && row["error"].empty() ? series_->state() : std::optional<SeriesState>();
+  if (state) write_series_state(state_path(), *state, state_fingerprint(row["frame"]));
   ++position_;
   if (is_last) {
     remove_state();
