@@ -172,7 +172,7 @@ TEST_CASE("a run that broke off anywhere goes on with the same rows") {
       CAPTURE(last);
       runner.interrupted(run, part, last);
       std::ofstream(part, std::ios::app) << last << ",file source.pqr,1.2";  // a row that was being written
-      if (last == 1) std::filesystem::remove(state);  // between the first row and its mapping
+      if (last == 1) std::filesystem::remove(state);                         // between the first row and its mapping
       if (last == 2) {
         // Between a row and its mapping: the state is that of the row before.
         const std::string rows = read_file(part), now = read_file(state);
