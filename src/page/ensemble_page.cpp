@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/formats.h"
-#include "io/read_csv.h"
-#include "io/read_vtp.h"
-#include "io/write_csv.h"
+#include "io/files/read_csv.h"
+#include "io/files/write_csv.h"
+#include "io/vtk/read_vtp.h"
 #include "page/assembled_page.h"
 #include "page/ensemble_tables.h"
 #include "page/page_arrays.h"

@@ -10,7 +10,7 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "io/base64.h"
+#include "io/files/base64.h"
 
 namespace espdiff {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "io/run_record.h"
+#include "io/structures/run_record.h"
 #include "page/page_surface.h"
 
 namespace espdiff {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/read_vtp.h"
+#include "io/vtk/read_vtp.h"
 #include "page/page_arrays.h"
 
 namespace espdiff {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/surface_parts.h"
-#include "io/write_csv.h"
+#include "io/files/write_csv.h"
 #include "page/assembled_page.h"
 #include "page/page_arrays.h"
 #include "page/page_molecule.h"

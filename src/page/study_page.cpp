@@ -8,9 +8,9 @@
 #include <map>
 
 #include "base/error.h"
-#include "io/json_values.h"
-#include "io/read_csv.h"
-#include "io/read_input.h"
+#include "io/files/read_csv.h"
+#include "io/files/read_input.h"
+#include "io/text/json_values.h"
 #include "page/assembled_page.h"
 #include "page/page_arrays.h"
 #include "plot/automatic_range.h"

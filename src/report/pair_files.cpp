@@ -6,8 +6,8 @@
 
 #include "base/error.h"
 #include "base/formats.h"
-#include "io/json_values.h"
-#include "io/read_input.h"
+#include "io/files/read_input.h"
+#include "io/text/json_values.h"
 #include "report/metrics.h"
 
 namespace espdiff {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/types.h"
-#include "io/read_csv.h"
-#include "io/read_vtp.h"
+#include "io/files/read_csv.h"
+#include "io/vtk/read_vtp.h"
 
 namespace espdiff {
 

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "cli/run_espdiff.h"
-#include "io/read_vtp.h"
+#include "io/vtk/read_vtp.h"
 #include "page/browser.h"
 #include "page/page_arrays.h"
 #include "page/page_surface.h"
