@@ -1,6 +1,6 @@
 // select_engine.cpp: probes the back ends and makes the requested engine.
-#include "engine/engine.h"
 #include "engine/select_engine.h"
+#include "engine/engine.h"
 
 #include <algorithm>
 #include <cstdlib>

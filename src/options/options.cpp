@@ -1,6 +1,6 @@
 // options.cpp: names of a comparison's choices, and the thesis' options.
-#include "base/error.h"
 #include "options/options.h"
+#include "base/error.h"
 
 namespace espdiff {
 

@@ -1,6 +1,6 @@
 // elements.cpp: radii by element and elements by atom name.
-#include "base/water.h"
 #include "io/molecules/elements.h"
+#include "base/water.h"
 #include "io/molecules/molecule_builder.h"
 #include "support/test_data.h"
 

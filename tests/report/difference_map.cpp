@@ -1,7 +1,7 @@
 // difference_map.cpp: the map around a surface: constants, linear fields, its band, its edge, a real surface, refusals.
+#include "report/difference_map.h"
 #include "mapping/input.h"
 #include "options/options.h"
-#include "report/difference_map.h"
 
 #include <doctest/doctest.h>
 
