@@ -152,7 +152,7 @@ bool agrees_with_formula(Groups& groups, const Molecule& molecule, const Molecul
 
 void charge_other_ligand(Groups& groups, Molecule& group, const Molecule& molecule, std::size_t residue, double ph,
                          const Progress& progress) {
-  ChargedLigand ligand = charge_by_open_babel(group, ph, molecule.name, progress);
+  ChargedLigand ligand = charge_by_open_babel(group, molecule, ph, progress);
   const std::size_t n_given = ligand.molecule.size() - ligand.n_hydrogens_added;
   group = std::move(ligand.molecule);
   const bool agrees = agrees_with_formula(groups, molecule, group, ligand.net_charge, false);

@@ -290,7 +290,7 @@ Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, 
   for (std::size_t i = n_own; i < with_cap.size(); ++i) {
     if (fragment.atoms[i].element == "P") fragment.atoms[i].name = fragment.atoms[i].element = "C";
   }
-  const ChargedLigand ligand = charge_by_open_babel(fragment, ph, molecule.name, progress);
+  const ChargedLigand ligand = charge_by_open_babel(fragment, molecule, ph, progress);
   std::vector<std::size_t> kept;
   double sum = 0;
   for (std::size_t i = 0; i < ligand.molecule.size(); ++i) {

@@ -1,4 +1,4 @@
-// open_babel.cpp: writes a ligand as PDB, runs Open Babel on it, and takes atoms and charges from its MOL2.
+// open_babel.cpp: writes a ligand as PDB, runs Open Babel on it, and takes bonds, hydrogens and charges from its MOL2.
 #include "prepare/open_babel.h"
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include "io/molecules/select_atoms.h"
 #include "io/molecules/write_pdb.h"
 #include "io/structures/read_mol2.h"
+#include "prepare/place_hydrogens.h"
 
 namespace espdiff {
 
@@ -100,8 +101,11 @@ Molecule without_hydrogens(const Molecule& ligand) {
   return keep_atoms(ligand, keep);
 }
 
-/// The ligand with what the file adds.
-ChargedLigand with_hydrogens(const Molecule& ligand, const Mol2File& mol2) {
+/// The ligand with the hydrogens that the file adds, at places of our own.
+ChargedLigand with_hydrogens(const Molecule& ligand, Mol2File mol2, const Molecule& surroundings) {
+  std::vector<Mol2Bond> bonds = read_mol2_bonds(mol2);
+  drop_impossible_hydrogens(mol2, bonds, ligand.size());
+  const std::vector<Vec3d> places = place_hydrogens(mol2, bonds, ligand.size(), surroundings);
   ChargedLigand charged;
   Molecule& molecule = charged.molecule;
   molecule = ligand;
@@ -113,7 +117,7 @@ ChargedLigand with_hydrogens(const Molecule& ligand, const Mol2File& mol2) {
     const Mol2Atom& atom = mol2.atoms[i];
     if (i >= ligand.size()) {
       molecule.atoms.push_back({hydrogen_name(taken), atom.element, 0, true});
-      molecule.positions.push_back(atom.position);
+      molecule.positions.push_back(places[i - ligand.size()]);
     }
     molecule.radii.push_back(static_cast<float>(element_radius(molecule.atoms[i].element)));
     molecule.charges.push_back(static_cast<float>(atom.charge));
@@ -130,19 +134,19 @@ std::string find_open_babel() {
   return find_program(named != nullptr && *named != '\0' ? named : "obabel");
 }
 
-ChargedLigand charge_by_open_babel(const Molecule& ligand, double ph, const std::string& name,
+ChargedLigand charge_by_open_babel(const Molecule& ligand, const Molecule& molecule, double ph,
                                    const Progress& progress) {
-  const std::string what = name + ": " + residue_label(ligand.residues.front());
+  const std::string what = molecule.name + ": " + residue_label(ligand.residues.front());
   const std::string program = find_open_babel();
   if (program.empty())
     throw DeviceError(what + ": Open Babel, which makes its hydrogens and charges, is not there; " + kOpenBabelRemedy);
   const Mol2File mol2 = run_open_babel(program, ligand, ph, what, progress);
-  if (continues(ligand, mol2)) return with_hydrogens(ligand, mol2);
+  if (continues(ligand, mol2)) return with_hydrogens(ligand, mol2, molecule);
   const Molecule heavy = without_hydrogens(ligand);
   if (heavy.size() > 0 && heavy.size() < ligand.size()) {
     const Mol2File anew = run_open_babel(program, heavy, ph, what, progress);
     if (continues(heavy, anew)) {
-      ChargedLigand charged = with_hydrogens(heavy, anew);
+      ChargedLigand charged = with_hydrogens(heavy, anew, molecule);
       charged.n_hydrogens_replaced = ligand.size() - heavy.size();
       return charged;
     }

@@ -14,7 +14,7 @@ std::string find_open_babel();
 /// What to do where there is none: "install it (Debian: openbabel)".
 extern const char* const kOpenBabelRemedy;
 
-/// What Open Babel made of a ligand: its heavy atoms as given, followed by the hydrogens, with charges and radii.
+/// A ligand with Open Babel's hydrogens and charges: its heavy atoms as given, followed by the hydrogens; with radii.
 struct ChargedLigand {
   Molecule molecule;  ///< one residue
   std::size_t n_hydrogens_added = 0;
@@ -25,11 +25,13 @@ struct ChargedLigand {
 /// Perceives bonds from the distances of heavy atoms, adds hydrogens for a pH, and assigns Gasteiger's charges (O'Boyle
 /// et al., J. Cheminform. 3, 33 (2011); Gasteiger and Marsili, Tetrahedron 36, 3219 (1980)). Radii are by element
 /// (element_radius()). Hydrogens that the ligand has are kept where Open Babel takes them as they are, and made anew
-/// otherwise. What is wrong in the geometry makes bonds, and so protons, wrong: compare the net charge.
-/// @param ligand one residue
-/// @param name   of its molecule, for messages
+/// otherwise. Open Babel says which hydrogens there are, without those that no valence allows, whose charge goes to the
+/// atom that they are bound to; place_hydrogens() says where they lie, since Open Babel places some by random numbers.
+/// What is wrong in the geometry makes bonds, and so protons, wrong: compare the net charge.
+/// @param ligand   one residue
+/// @param molecule that it is of, for messages and clashes
 /// @throws DeviceError (no Open Babel, or it failed), InputError (it returned other atoms than it got), Cancelled
-ChargedLigand charge_by_open_babel(const Molecule& ligand, double ph, const std::string& name,
+ChargedLigand charge_by_open_babel(const Molecule& ligand, const Molecule& molecule, double ph,
                                    const Progress& progress);
 
 }  // namespace espdiff

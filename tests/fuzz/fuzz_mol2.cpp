@@ -13,5 +13,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (!(std::fabs(x) <= 1e6)) std::abort();
       }
     }
+    for (const espdiff::Mol2Bond& bond : espdiff::read_mol2_bonds(ligand)) {
+      if (bond.a >= ligand.atoms.size() || bond.b >= ligand.atoms.size() || bond.a == bond.b) std::abort();
+    }
   });
 }

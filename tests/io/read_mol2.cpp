@@ -53,6 +53,25 @@ TEST_CASE("read_mol2: lines that are no atoms are refused with their number") {
   CHECK(refusal("") == ": is empty; give a file with content");
 }
 
+TEST_CASE("read_mol2_bonds: atoms by their places, and lines that are no bonds") {
+  const ScratchFolder folder;
+  const auto bonds_of = [&](const std::string& bonds) {
+    return espdiff::read_mol2_bonds(
+        read_mol2(folder.write("a.mol2", kMol2Head + std::string("1 C1 0 0 0 C.3\n2 H1 0 0 1 H\n") + bonds)));
+  };
+  const auto bonds = bonds_of("@<TRIPOS>BOND\n     1     2    1 am\n@<TRIPOS>SUBSTRUCTURE\n1 2 3\n");
+  REQUIRE(bonds.size() == 1);
+  CHECK(bonds[0].a == 1);
+  CHECK(bonds[0].b == 0);
+  CHECK(bonds_of("").empty());
+  for (const char* line : {"1 1 3 1", "1 0 1 1", "1 1 1 1", "1 1 2", "1 1 1.5 ar"}) {
+    const std::string message = message_of([&] { bonds_of(std::string("@<TRIPOS>BOND\n") + line + "\n"); });
+    CHECK_MESSAGE(message.find(":8: a MOL2 bond is '" + std::string(line) +
+                               "'; number, two of the 2 atoms, and type were expected") != std::string::npos,
+                  message);
+  }
+}
+
 TEST_CASE("read_mol2: a line, or a name, of any length is shown in part") {
   const std::string message = refusal(kMol2Head + std::string("1 ") + std::string(1'000'000, 'C') + " 0 0\n");
   CHECK(message.size() < 300);

@@ -1,4 +1,4 @@
-// read_mol2.cpp: the ATOM section: number, name, x, y, z, type.
+// read_mol2.cpp: the sections ATOM (number, name, x, y, z, type) and BOND (number, two atoms, type).
 #include "io/structures/read_mol2.h"
 
 #include <algorithm>
@@ -66,13 +66,41 @@ Mol2File read_mol2(const std::string& path) {
       throw InputError(path + ": has more than " + std::to_string(kMostAtoms) +
                        " atoms, which is the most that are read");
     atom.name = words[1];
-    atom.element = words[5].substr(0, words[5].find('.'));
+    atom.type = words[5];
+    atom.element = atom.type.substr(0, atom.type.find('.'));
     constexpr std::size_t kChargeColumn = 8;
     if (words.size() > kChargeColumn && !parse_number(words[kChargeColumn], atom.charge)) atom.charge = 0;
     file.atoms.push_back(std::move(atom));
   }
   if (file.atoms.empty()) throw InputError(path + ": has no @<TRIPOS>ATOM section; give a MOL2 file with atoms");
   return file;
+}
+
+std::vector<Mol2Bond> read_mol2_bonds(const Mol2File& file) {
+  std::vector<Mol2Bond> bonds;
+  bool in_bonds = false;
+  TextCursor cursor(file.content, file.path);
+  while (!cursor.at_end()) {
+    const std::string_view line = cursor.rest_of_line();
+    if (line.substr(0, 9) == "@<TRIPOS>") {
+      if (in_bonds) break;
+      in_bonds = trimmed(line) == "@<TRIPOS>BOND";
+      continue;
+    }
+    if (!in_bonds || trimmed(line).empty() || line[0] == '#') continue;
+    const auto words = split_words(line);
+    double a = 0, b = 0;
+    const auto is_atom = [&](double number) {
+      return number >= 1 && number <= static_cast<double>(file.atoms.size()) && number == std::floor(number);
+    };
+    if (words.size() < 4 || !parse_number(words[1], a) || !parse_number(words[2], b) || !is_atom(a) || !is_atom(b) ||
+        a == b)
+      throw FormatError(file.path, cursor.line(),
+                        "a MOL2 bond is " + in_quotes(line) + "; number, two of the " +
+                            std::to_string(file.atoms.size()) + " atoms, and type were expected");
+    bonds.push_back({static_cast<std::size_t>(a) - 1, static_cast<std::size_t>(b) - 1});
+  }
+  return bonds;
 }
 
 }  // namespace espdiff

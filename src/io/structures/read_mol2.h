@@ -1,4 +1,4 @@
-// read_mol2.h: the atoms of a ligand in a Tripos MOL2 file.
+// read_mol2.h: the atoms and bonds of a ligand in a Tripos MOL2 file.
 #pragma once
 
 #include <string>
@@ -10,9 +10,15 @@ namespace espdiff {
 
 struct Mol2Atom {
   std::string name;
-  std::string element;  ///< from the atom type: "C" of "C.ar"
-  Vec3d position;       ///< Angstrom
-  double charge = 0;    ///< elementary charges; 0 where the file has none
+  std::string element;    ///< from the atom type: "C" of "C.ar"
+  Vec3d position;         ///< Angstrom
+  double charge = 0;      ///< elementary charges; 0 where the file has none
+  std::string type = {};  ///< Tripos' atom type: "C.ar"
+};
+
+/// Two atoms of a file, by their places in Mol2File::atoms.
+struct Mol2Bond {
+  std::size_t a, b;
 };
 
 struct Mol2File {
@@ -23,5 +29,9 @@ struct Mol2File {
 /// Reads the ATOM section of a file's first molecule.
 /// @throws IoError, InputError (not a MOL2 file, no atoms), FormatError (a line that cannot be read)
 Mol2File read_mol2(const std::string& path);
+
+/// The bonds of a file whose atoms are numbered from 1 in their order, as Open Babel writes them.
+/// @throws FormatError (a line that cannot be read, or that names an atom that is not there)
+std::vector<Mol2Bond> read_mol2_bonds(const Mol2File& file);
 
 }  // namespace espdiff
