@@ -35,7 +35,9 @@ LoadedState load_complex(const ComplementarityArguments& a, const std::string& r
   const std::string& path = role == "source" ? a.source : a.target;
   const StructureFile file(path);
   const StateRequest request{a.structure, role == "source" ? StateRole::kSource : StateRole::kTarget};
-  LoadedState state = load_for(a.potential, true, file, request, options, progress);
+  PotentialRequest potential = a.potential;
+  potential.is_required = true;
+  LoadedState state = load_for(potential, true, file, request, options, progress);
   for (InputFile& input : state_inputs(role, {role, path, file.sha256(), nullptr, a.structure}, state))
     provenance.inputs.push_back(std::move(input));
   return state;

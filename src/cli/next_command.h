@@ -14,13 +14,18 @@ using TypedWords = std::vector<std::string>;
 /// The words with other options: those that were typed earlier get the new values.
 TypedWords with_options(TypedWords words, const std::vector<NamedOption>& options);
 
-/// The two words in each other's place, such as source and target; unchanged if one of them was not typed.
+/// The words without the options that need a potential or charges: settings of computed potentials, causes, such
+/// fields, patches and metrics.
+TypedWords without_potential(TypedWords words);
+
+/// Source and target in each other's place, with their options (--source-model); unchanged if one was not typed.
 TypedWords exchanged(TypedWords words, const std::string& a, const std::string& b);
 
 /// "espdiff a.pdb b.pdb --ligands auto", as a shell takes it.
 std::string as_typed(const TypedWords& words);
 
-/// What NextCommand::before says, and the words: "apt install openbabel && espdiff a.pdb b.pdb --ligands auto"
+/// What NextCommand::before says, and the words: "apt install openbabel && espdiff a.pdb b.pdb --ligands auto". Where
+/// it gives up the potential, what needs one goes, too.
 std::string next_command(const TypedWords& words, const NextCommand& next);
 
 }  // namespace espdiff::cli

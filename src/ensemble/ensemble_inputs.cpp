@@ -134,7 +134,9 @@ LoadedState EnsembleInputs::reference_of(const std::string& group, PotentialFact
   } else {
     file_name = own ? asked.files.front() : given->second;
     const auto file = own ? opener_of(asked.topology)(file_name) : open_structure(file_name);
-    state = load_for(request_.potential, !maps_.given(), *file, {request_.structure}, options_.input, progress_);
+    PotentialRequest potential = request_.potential;
+    potential.is_required = true;
+    state = load_for(potential, !maps_.given(), *file, {request_.structure}, options_.input, progress_);
     from = !own                ? fs::path(file_name).filename().string() + " " + file->sha256()
            : state.preparation ? "PDB2PQR of the first frame"
                                : "its files";

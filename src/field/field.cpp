@@ -52,6 +52,7 @@ FieldKind kind_of_potential(Quantity quantity, std::string help, SurfaceReader r
     field.of_potential = true;
     return field;
   };
+  kind.needs_charges = true;
   return kind;
 }
 

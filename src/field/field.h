@@ -65,6 +65,7 @@ struct FieldKind {
   /// Makes the field; reads the files that the argument names.
   /// @throws InputError, IoError, FormatError
   std::function<Field(const FieldKind& kind, const std::string& argument)> field;
+  bool needs_charges = false;  ///< or a potential: no state has it where shapes alone are compared
 };
 
 /// A kind without an argument whose values are those of atoms.

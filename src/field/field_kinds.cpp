@@ -97,10 +97,12 @@ void check_fields(const std::vector<FieldRequest>& requests, const std::vector<s
   }
 }
 
+const FieldKind& kind_of(const FieldRequest& request) { return find_kind(request.what, request.what); }
+
 std::vector<Field> make_fields(const std::vector<FieldRequest>& requests) {
   std::vector<Field> fields;
   for (const FieldRequest& request : requests) {
-    const FieldKind& kind = find_kind(request.what, request.what);
+    const FieldKind& kind = kind_of(request);
     Field field = kind.field(kind, split(request.what).second);
     field.quantity.name = request.name;
     field.what = request.what;

@@ -20,6 +20,9 @@ std::vector<FieldRequest> parse_fields(const std::string& text);
 /// @throws InputError (a name twice, or taken)
 void check_fields(const std::vector<FieldRequest>& requests, const std::vector<std::string>& taken = {});
 
+/// @throws InputError (no such kind)
+const FieldKind& kind_of(const FieldRequest& request);
+
 /// Makes the fields; reads their files. @throws InputError, IoError, FormatError
 std::vector<Field> make_fields(const std::vector<FieldRequest>& requests);
 

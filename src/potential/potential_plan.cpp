@@ -16,7 +16,7 @@ LoadedState load_for(const PotentialRequest& asked, bool wants_charges, const St
   try {
     return load_state(file, request, options, progress);
   } catch (const InputError& error) {
-    if (!is_auto || !request.wants_charges) throw;
+    if (!is_auto || asked.is_required || !request.wants_charges) throw;
     // Was it the preparation?
     request.wants_charges = false;
     load_state(file, request, options, progress);

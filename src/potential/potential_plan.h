@@ -18,13 +18,14 @@ struct PotentialRequest {
   std::string potential = "auto";  ///< auto, none, pme, coulomb or pb
   std::string cell = "auto";       ///< of pme: own, box or auto
   GivenPotentialSettings given;
-  bool averaged = false;  ///< the potentials of many frames are averaged; see choose_potential()
+  bool averaged = false;     ///< the potentials of many frames are averaged; see choose_potential()
+  bool is_required = false;  ///< shapes alone would be no answer
 };
 
 /// Loads a state that is to be compared: with charges where a potential is asked for or, for auto, where charges
 /// can be had.
 /// @param wants_charges false where maps are given
-/// @throws as load_state(); for auto the message adds how shapes alone are compared
+/// @throws as load_state(); for auto, unless one is required, the message adds how shapes alone are compared
 LoadedState load_for(const PotentialRequest& asked, bool wants_charges, const StructureFile& file, StateRequest request,
                      const InputOptions& options, const Progress& progress);
 /// What a state brings for a potential.

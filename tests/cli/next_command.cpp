@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "cli/next_command.h"
 #include "cli/run_espdiff.h"
 
 using namespace espdiff_test;  // NOLINT: a test
@@ -141,24 +142,85 @@ TEST_CASE("trajectory: PSF and DCD without VMD, and the plot with the table wher
   CHECK(contains(again.err, "overwrite"));
 }
 
-TEST_CASE("next: what PDB2PQR cannot prepare is compared by its shapes") {
+namespace {
+
+/// A file that PDB2PQR cannot prepare: the alpha carbons of a protein; empty where it is not there.
+std::string trace_of_lysozyme() {
   const auto path = real_input("t4l/3lzm_from_bcif.pdb");
-  if (!path || !has_pdb2pqr()) return;
-  const ScratchFolder folder;
+  if (!path || !has_pdb2pqr()) return {};
   std::string trace;
   std::istringstream lines(read_file(*path));
   for (std::string line; std::getline(lines, line);) {
     if (line.rfind("ATOM", 0) == 0 && line.substr(12, 4) == " CA ") trace += line + "\n";
   }
-  const std::string file = folder.write("trace.pdb", trace);
-  const Outcome refused = run_espdiff(file + " " + file + " --device cpu -q -o " + folder.file("out"));
-  CHECK(refused.status == 2);
-  CHECK(contains(refused.err, "PDB2PQR cannot prepare it"));
-  REQUIRE(contains(next_words(refused.err), "--potential none"));
-  const Outcome next = run_espdiff(next_words(refused.err));
-  // A trace has no residues whose potentials could vouch for it.
-  CHECK_MESSAGE((next.status == 0 || next.status == 3), next.err);
-  CHECK_FALSE(read_file(folder.file("out.json")).empty());
+  return trace;
+}
+
+}  // namespace
+
+TEST_CASE("next: what PDB2PQR cannot prepare is compared by its shapes, without the options that need a potential") {
+  const ScratchFolder folder;
+  const std::string trace = trace_of_lysozyme();
+  if (trace.empty()) return;
+  const std::string file = folder.write("trace.pdb", trace), pair = file + " " + file;
+  const std::string potentials =
+      " --pb-spacing=1 --distance-dependent --ionic-strength 0.1 --field normal-field --field e=field-strength"
+      " --field q=charge --patches-of potential --patches-of 'q>0.05'";
+  const std::string causes = " --causes whole --causes 'residue A:5' --scan --side-chains 3";
+  const std::string shapes = " --field curvature --patches-of 'curvature>0.2' --grid-spacing 2 --device cpu -q";
+  struct Run {
+    std::string typed, output, kept;
+  };
+  for (const Run& run :
+       {Run{"compare " + pair + potentials + causes + " --residue-quantity q_mean_source --residue-pdb " +
+                folder.file("r.pdb") + shapes + " -o " + folder.file("out"),
+            "out.json", " --patches-of 'curvature>0.2'"},
+        Run{"trajectory " + pair + " --pb-spacing 1 --field normal-field --field curvature --residues " +
+                folder.file("t.residues.csv") + " --residue-quantity mean_source --device cpu -q -o " +
+                folder.file("t.csv"),
+            "t.csv", ""},
+        Run{"matrix " + file + " " + folder.write("other.pdb", trace) +
+                " --pb-spacing 1 --field q=charge --field curvature --cluster-by mean_abs_difference --device cpu -q"
+                " -o " +
+                folder.file("m"),
+            "m.json", ""}}) {
+    const Outcome refused = run_espdiff(run.typed);
+    CHECK(refused.status == 2);
+    CHECK_MESSAGE(contains(refused.err, "PDB2PQR cannot prepare it"), refused.err);
+    const std::string words = next_words(refused.err);
+    CHECK_MESSAGE(contains(words, " --field curvature" + run.kept), words);
+    REQUIRE_MESSAGE(contains(words, " --potential none"), words);
+    const Outcome next = run_espdiff(words);
+    // A trace has no residues whose potentials could vouch for it.
+    CHECK_MESSAGE((next.status == 0 || next.status == 3), words << '\n' << next.err);
+    CHECK_FALSE(read_file(folder.file(run.output)).empty());
+  }
+}
+
+TEST_CASE("next: where a potential is what was asked for, no command gives it up") {
+  const ScratchFolder folder;
+  const std::string trace = trace_of_lysozyme();
+  if (trace.empty()) return;
+  const std::string models = "MODEL        1\n" + trace + "ENDMDL\nMODEL        2\n" + trace + "ENDMDL\nEND\n",
+                    file = folder.write("trace.pdb", models), other = folder.write("other.pdb", models + "REMARK\n");
+  for (const std::string& typed :
+       {"potential " + file + " -o " + folder.file("p.dx"), "prepare " + file + " -o " + folder.file("p.pqr"),
+        "complementarity " + file + " --interface A:B -o " + folder.file("c"),
+        "ensemble --group a " + file + " --group b " + other + " -o " + folder.file("e")}) {
+    const Outcome refused = run_espdiff(typed);
+    CHECK(refused.status == 2);
+    CHECK_MESSAGE(contains(refused.err, "PDB2PQR cannot prepare it"), typed << '\n' << refused.err);
+    CHECK_MESSAGE(next_words(refused.err).empty(), refused.err);
+  }
+}
+
+TEST_CASE("next: source and target exchanged takes their options along, as it was tried") {
+  using espdiff::cli::exchanged;
+  using espdiff::cli::TypedWords;
+  CHECK(exchanged({"a.pdb", "b.pdb", "--target-model", "3", "-q"}, "a.pdb", "b.pdb") ==
+        TypedWords{"b.pdb", "a.pdb", "--source-model", "3", "-q"});
+  CHECK(exchanged({"a.pdb", "a.pdb", "--target-model=3"}, "a.pdb", "a.pdb") ==
+        TypedWords{"a.pdb", "a.pdb", "--source-model=3"});
 }
 
 TEST_CASE("compare -o OUT.png draws the picture with the answer, or says before the work why it cannot") {

@@ -4,8 +4,11 @@
 namespace espdiff {
 
 FieldKind charge_kind() {
-  return kind_of_atoms({"charge", "Charge", "e", true}, "Partial charges of the atoms around a point, their mean",
-                       "the charges that the structures have", [](const Molecule& m) { return m.charges; });
+  FieldKind kind =
+      kind_of_atoms({"charge", "Charge", "e", true}, "Partial charges of the atoms around a point, their mean",
+                    "the charges that the structures have", [](const Molecule& m) { return m.charges; });
+  kind.needs_charges = true;
+  return kind;
 }
 
 }  // namespace espdiff
