@@ -137,13 +137,21 @@ std::string potential_unit_of(const CsvTable& table) {
   return "";
 }
 
+/// Whether it is the OUT.csv of a matrix.
+bool is_matrix_table(const CsvTable& table) { return table.find("source") >= 0 && table.find("target") >= 0; }
+
+std::string matrix_json_of(const std::string& csv) {
+  return std::filesystem::path(csv).replace_extension(".json").string();
+}
+
 /// Columns of a table along another column, such as the frames of a trajectory. A column NAME_error gives NAME error
 /// bars.
 LinePlot along_table(const PlotArguments& a, const CsvTable& table) {
   if (!a.source.empty() || a.both_ways)
     throw InputError("--source and --both-ways need a matrix; give its OUT.json instead of " + table.path);
-  if (table.find("source") >= 0 && table.find("target") >= 0)
-    throw InputError(table.path + ": a matrix is drawn from its JSON file; give that file");
+  if (is_matrix_table(table))
+    throw InputError(table.path + ": a matrix is drawn from its JSON file, and there is no " +
+                     matrix_json_of(table.path) + "; give that file");
   if (table.find("significant_area_A2") > 0 && a.metrics.empty())
     throw InputError(table.path +
                      ": is a table of an ensemble, which `espdiff report` and `render` show; its columns "
@@ -200,7 +208,7 @@ std::vector<CausePanel> cause_panels(const CsvTable& table) {
   if (difference == 0) throw FormatError(table.path, 0, "there is no column 'difference [UNIT]'");
   const std::size_t chain = table.require("chain"), number = table.require("residue_number"),
                     name = table.require("residue_name"), kind = table.require("kind"),
-                    uncertain = table.require("poorly_known");
+                    uncertain = table.require("poorly_known"), insertion = table.require("insertion_code");
   std::vector<CausePanel> panels;
   std::vector<double> sums;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -214,7 +222,7 @@ std::vector<CausePanel> cause_panels(const CsvTable& table) {
     if (panels.back().bars.size() == kMostBars) continue;
     std::string words = cells[kind];
     std::replace(words.begin(), words.end(), '_', ' ');
-    const std::string residue = cells[name] + (cells[number].empty() ? "" : " " + cells[number]) +
+    const std::string residue = cells[name] + (cells[number].empty() ? "" : " " + cells[number]) + cells[insertion] +
                                 (cells[chain].empty() ? "" : " " + cells[chain]);
     panels.back().bars.push_back({residue + ", " + words, value, cells[uncertain] == "1"});
   }
@@ -238,14 +246,23 @@ std::string cause_table_of(const std::string& given) {
 int plot_verb(PlotArguments& a, const Context&) {
   a.input = a.causes ? cause_table_of(a.input) : file_to_plot(a.input);
   const PictureFormat format = picture_format(a.output);
+  const auto is_json_file = [&] {
+    return lower_case(a.input).size() > 5 && lower_case(a.input).substr(a.input.size() - 5) == ".json";
+  };
+  CsvTable table;
+  if (!is_json_file()) {
+    table = read_csv(a.input);
+    std::error_code ignored;
+    if (is_matrix_table(table) && std::filesystem::is_regular_file(matrix_json_of(a.input), ignored))
+      a.input = matrix_json_of(a.input);
+  }
+  const bool is_json = is_json_file();
   check_outputs({a.input}, {a.output});
-  const bool is_json = lower_case(a.input).size() > 5 && lower_case(a.input).substr(a.input.size() - 5) == ".json";
   if (is_json && a.source.empty()) {
     if (a.normalize || a.both_ways) throw InputError("--normalize and --both-ways are for lines; name one --source");
     write_picture(a.output, heat_map_script(heat_map(a, read_matrix_json(a.input)), format));
     return 0;
   }
-  const CsvTable table = is_json ? CsvTable() : read_csv(a.input);
   if (!is_json && is_pair_table(table)) {
     if (a.normalize || !a.metrics.empty() || !a.x.empty() || !a.range.empty())
       throw InputError("--normalize, --metric, --x and --range are of other tables, and " + a.input +

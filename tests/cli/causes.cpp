@@ -110,6 +110,13 @@ TEST_CASE("causes: bars are drawn of any file of the result; one without causes 
     for (const char* word : {"region: ", "whole: ", "SER 3 A, substituted", "kT/e"})
       CHECK_MESSAGE(contains(text, word), word);
   }
+  const std::string inserted = files.folder.write(
+      "i.causes.csv",
+      "reading,chain,residue_number,insertion_code,residue_name,kind,difference [kT/e],poorly_known\n"
+      "whole,A,105,B,LYS,moved,0.5,0\nwhole,A,105,,GLY,moved,0.25,0\n");
+  REQUIRE(run_espdiff("plot " + inserted + " -o " + svg).status == 0);
+  for (const char* word : {"LYS 105B A, moved", "GLY 105 A, moved"})
+    CHECK_MESSAGE(contains(read_file(svg), word), word);
   const Outcome without = run_espdiff("plot " + files.source + " --causes -o " + svg);
   CHECK(without.status == 2);
   CHECK(contains(without.err, "a.pqr.causes.csv: no such file; compare with --causes first, such as --causes whole"));

@@ -39,6 +39,12 @@ TEST_CASE("a matrix as heat map, and one of its variants against all") {
   std::string text = read_file(svg);
   for (const char* word : {"m0", "m1", "m2", "first", "second", "Mean displacement (\u00C5)", "clustered by"})
     CHECK_MESSAGE(contains(text, word), std::string(word), text);
+  // The table stands for the JSON beside it.
+  const std::string table = folder.file("m.csv"), of_table = folder.file("csv.svg");
+  const Outcome by_table = run_espdiff("plot " + table + " --order dendrogram -o " + of_table);
+  REQUIRE_MESSAGE(by_table.status == 0, by_table.err);
+  CHECK(read_file(of_table) == text);
+  CHECK(run_espdiff("plot " + table + " --source m1 -o " + of_table).status == 0);
   const Outcome lines = run_espdiff("plot " + matrix + " --source m1 --metric rmsd_A --metric no_counterpart_source " +
                                     "--both-ways -o " + svg);
   REQUIRE_MESSAGE(lines.status == 0, lines.err);
@@ -134,7 +140,8 @@ TEST_CASE("wrong usage of plot exits 2 and writes nothing") {
            {matrix + " --normalize" + svg, "name one --source"},
            {table + " --metric b" + svg, "there is no column 'b'"},
            {table + " --source m0" + svg, "give its OUT.json"},
-           {folder.file("m.csv") + svg, "drawn from its JSON file"},
+           {folder.write("alone.csv", "source,target,rmsd_A\na,b,1\n") + svg,
+            "a matrix is drawn from its JSON file, and there is no " + folder.file("alone.json")},
            {folder.write("e.csv", "residue,difference,significant_area_A2\nALA 1,2,0\n") + svg,
             "is a table of an ensemble, which `espdiff report` and `render` show"},
            {folder.write("x.json", "{}") + svg, "not the JSON that `espdiff matrix` writes"}}) {
@@ -142,5 +149,5 @@ TEST_CASE("wrong usage of plot exits 2 and writes nothing") {
     CHECK_MESSAGE(outcome.status == 2, wrong.first);
     CHECK_MESSAGE(contains(outcome.err, wrong.second), outcome.err);
   }
-  CHECK(folder.n_files() == n_files + 2);
+  CHECK(folder.n_files() == n_files + 3);
 }
