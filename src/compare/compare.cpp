@@ -306,11 +306,10 @@ struct Series::Steps {
     result.chains = compared_chains(a, b, target_of);
     result.source_copies = repeated_chains(a);
     result.target_copies = repeated_chains(b);
+    if (!a.charges.empty() && !b.charges.empty()) result.protonation = protonation_differences(a, b, target_of);
+    if (!result.protonation.empty()) result.warnings.push_back({protonation_warning(result.protonation, a), false});
     for (Warning& warning : composition_warnings(a, b, source.parts.region, result))
       result.warnings.push_back(std::move(warning));
-    if (a.charges.empty() || b.charges.empty()) return;
-    result.protonation = protonation_differences(a, b, target_of);
-    if (!result.protonation.empty()) result.warnings.push_back({protonation_warning(result.protonation, a), false});
   }
 
   /// Given maps against the molecules, and the two potentials against each other.

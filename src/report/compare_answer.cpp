@@ -1,7 +1,8 @@
-// compare_answer.cpp: what most readers need of a comparison, in about twenty lines.
+// compare_answer.cpp: what most readers need of a comparison, in twenty lines: the most important ones.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <sstream>
 
 #include "base/formatted.h"
 #include "certificate/result.h"
@@ -85,7 +86,7 @@ void print_main_numbers(std::ostream& out, const Record& record) {
   }
   for (const Json& patches : record.at("/field_patches"))
     print_wrapped(out, field_patches_in_words(Record(patches)), "Patches of " + Record(patches).text("/field"),
-                  kLabelWidth);
+                  kLabelWidth, 2);
   if (record.has("/region")) print_brief_part(out, "Region", record.at("/region"), record);
   for (const auto& [name, patch] : record.at("/fixed_patches").items())
     print_brief_part(out, "Patch " + name, patch, record);
@@ -138,23 +139,48 @@ std::string untrusted_in_words(const Record& record) {
   return parts;
 }
 
-/// What the numbers rest on, in at most two lines each.
-void print_basis(std::ostream& out, const Record& record) {
+/// What the numbers rest on, the most important first.
+Lines basis_of(const Record& record) {
   Lines notes = joined_notes(record), lines = states_in_words(record, notes);
   lines.emplace_back("Paired", pairing_in_words(record));
-  const Lines chains = chains_in_words(record);
-  lines.insert(lines.end(), chains.begin(), chains.end());
   if (record.has_potential()) {
     lines.emplace_back("Potential", record.has("/potential") ? record.text("/potential/label") : "of the given maps");
   } else {
     lines.emplace_back("Shapes alone", record.text("/shapes_because"));
   }
-  lines.insert(lines.end(), notes.begin(), notes.end());
   lines.emplace_back("Turned", turned_in_words(record));
   lines.emplace_back("Not trusted", untrusted_in_words(record));
-  for (const auto& [label, text] : lines) {
-    if (!text.empty()) print_wrapped(out, text, label, kBasisWidth, 2);
-  }
+  const Lines chains = chains_in_words(record);
+  lines.insert(lines.end(), chains.begin(), chains.end());
+  lines.insert(lines.end(), notes.begin(), notes.end());
+  lines.erase(std::remove_if(lines.begin(), lines.end(), [](const auto& line) { return line.second.empty(); }),
+              lines.end());
+  return lines;
+}
+
+/// Without those that the verdict gives as its reasons.
+std::vector<std::string> further_warnings(const Record& record) {
+  std::vector<std::string> warnings = record.texts("/warnings");
+  if (record.flag("/certificate/trustworthy")) return warnings;
+  for (const std::string& reason : record.texts("/certificate/reasons"))
+    warnings.erase(std::remove(warnings.begin(), warnings.end(), reason), warnings.end());
+  return warnings;
+}
+
+/// How many lines of the basis and of the warnings there is room for.
+struct Room {
+  std::size_t n_basis, n_warnings;
+};
+
+Room room_beside(std::size_t n_other_lines, std::size_t n_basis, std::size_t n_warnings) {
+  constexpr std::size_t kMostLines = 20, kFewestBasis = 4, kKeptWarnings = 3;
+  const std::size_t around_warnings = n_warnings > 0 ? 2 : 0;  // a blank line and their heading
+  const std::size_t n_left = kMostLines - std::min(kMostLines, n_other_lines + around_warnings);
+  Room room{};
+  const std::size_t n_kept = std::min(n_warnings, kKeptWarnings);
+  room.n_basis = std::min(n_basis, std::max(kFewestBasis, n_left - std::min(n_left, n_kept)));
+  room.n_warnings = std::min(n_warnings, std::max<std::size_t>(1, n_left - std::min(n_left, room.n_basis)));
+  return room;
 }
 
 void print_brief_causes(std::ostream& out, const Record& record) {
@@ -167,29 +193,32 @@ void print_brief_causes(std::ostream& out, const Record& record) {
   }
 }
 
-/// Those that refuse, or are few, in two lines each; of many one line each.
-void print_brief_warnings(std::ostream& out, const Record& record) {
-  constexpr std::size_t kMost = 5, kFew = 3;
-  const std::vector<std::string> warnings = record.texts("/warnings");
-  if (warnings.empty()) return;
-  out << "\nWarnings\n";
-  for (std::size_t i = 0; i < warnings.size() && i < kMost; ++i)
-    print_wrapped(out, warnings[i], "  -", 4, warnings.size() <= kFew ? 2 : 1);
-  if (warnings.size() > kMost) out << "  - " << warnings.size() - kMost << " more\n";
-}
-
 }  // namespace
 
 void print_answer(std::ostream& out, const Json& json, const std::string& show) {
   const Record record(json);
-  print_brief_verdict(out, record);
-  out << '\n';
-  print_main_numbers(out, record);
-  out << '\n';
-  print_basis(out, record);
+  std::ostringstream head;
+  print_brief_verdict(head, record);
+  head << '\n';
+  print_main_numbers(head, record);
+  head << '\n';
+  const std::string text = head.str();
+  const Lines basis = basis_of(record);
+  const std::vector<std::string> warnings = further_warnings(record);
+  const auto n_head = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  const Room room = room_beside(n_head + 1, basis.size(), warnings.size());
+  out << text;
+  for (std::size_t i = 0; i < room.n_basis; ++i) print_wrapped(out, basis[i].second, basis[i].first, kBasisWidth, 1);
   print_brief_causes(out, record);
-  print_brief_warnings(out, record);
-  if (!show.empty()) out << "\nEvery number: " << show << '\n';
+  const std::size_t n_notes = basis.size() - room.n_basis;
+  if (!warnings.empty()) {
+    out << "\nWarnings";
+    if (room.n_warnings < warnings.size()) out << ", " << room.n_warnings << " of " << warnings.size();
+    out << '\n';
+  }
+  for (std::size_t i = 0; i < room.n_warnings; ++i) print_wrapped(out, warnings[i], "  -", 4, 1);
+  if (!show.empty())
+    out << "Every number" << (n_notes > 0 ? ", and " + counted(n_notes, "more note") : "") << ": " << show << '\n';
 }
 
 void print_verdict_line(std::ostream& out, const CompareResult& result) {
