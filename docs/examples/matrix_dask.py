@@ -18,6 +18,9 @@ from dask.distributed import Client, LocalCluster
 
 import espdiff.dask
 
+# What `espdiff matrix` reads from tables, or does with files that this program takes as they are.
+NOT_TAKEN = ("--cluster-by", "--groups", "--list", "--map-array", "--no-hetero", "--quiet", "--shard", "--water")
+
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], allow_abbrev=False)
@@ -34,7 +37,8 @@ def parse():
 
 
 def settings(words):
-    """--potential=pb or --potential pb as potential="pb", --cavities as cavities=True, --no-project as project=False."""
+    """--potential=pb or --potential pb as potential="pb", --cavities as cavities=True, --no-project as project=False; --field
+    and --patch may be repeated; --on-error skip as skip_errors=True."""
     parameters = inspect.signature(espdiff.matrix).parameters
     kinds = {row["name"]: row["kind"] for row in espdiff.help_options()}
     given, words = {}, list(words)
@@ -42,17 +46,23 @@ def settings(words):
         option, has_value, value = words.pop(0).partition("=")
         name = option[2:].replace("-", "_")
         off = name.startswith("no_") and name[3:] in parameters
-        name = name[3:] if off else "patches" if name == "patch" else name
+        name = name[3:] if off else {"patch": "patches", "field": "fields", "on_error": "skip_errors"}.get(name, name)
+        if option in NOT_TAKEN:
+            raise SystemExit(f"matrix_dask.py: {option} is an option of `espdiff matrix` alone")
         if not option.startswith("--") or name not in parameters:
             raise SystemExit(f"matrix_dask.py: {option}: espdiff matrix has no such option")
-        if isinstance(parameters[name].default, bool):
+        if isinstance(parameters[name].default, bool) and name != "skip_errors":
             given[name] = not off
             continue
         if not has_value:
             if not words:
                 raise SystemExit(f"matrix_dask.py: {option} needs a value")
             value = words.pop(0)
-        if kinds.get(name) == "named":
+        if name == "skip_errors":
+            given[name] = value == "skip"
+        elif name == "fields":
+            given.setdefault(name, []).extend(value.split("|"))
+        elif kinds.get(name) == "named":
             given.setdefault(name, {}).update([value.split("=", 1)])
         elif kinds.get(name) == "list":
             given[name] = f"{given[name]},{value}" if name in given else value

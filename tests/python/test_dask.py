@@ -3,6 +3,7 @@
 import importlib.util
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -143,11 +144,34 @@ def test_slurm_example(data, tmp_path):
         assert (tmp_path / f"many{ending}").read_bytes() == (tmp_path / f"one{ending}").read_bytes()
 
 
-def test_options_of_the_example(monkeypatch):
-    """Switches, values and repeated options reach the matrix; others end it."""
+def example():
     loader = importlib.util.spec_from_file_location("matrix_dask", REPOSITORY / "docs" / "examples" / "matrix_dask.py")
     module = importlib.util.module_from_spec(loader)
     loader.loader.exec_module(module)
+    return module
+
+
+def test_the_example_takes_each_option_of_the_command_line(program):
+    """Or names it as one that it does not take: the two tables of options are compared."""
+    printed = subprocess.run([program, "matrix", "--help-all"], capture_output=True, text=True, check=True).stdout
+    rows = re.findall(r"^  (?:-\w, )?(--[a-z-]+)( \S+)?", printed.split("Options:")[1], re.MULTILINE)
+    own = {"--help", "--help-all", "--output", "--resume"}  # of the example itself
+    module = example()
+    assert set(module.NOT_TAKEN) <= {option for option, _ in rows}
+    assert len(rows) > 60
+    for option, value in rows:
+        if option not in own | set(module.NOT_TAKEN):
+            words = [option] + (["a=charge" if option in ("--field", "--patch") else "1"] if value.strip() else [])
+            assert len(module.settings(words)) == 1, option
+    assert module.settings("--field hydrophobicity --field e=field-strength --on-error skip".split()) == {
+        "fields": ["hydrophobicity", "e=field-strength"], "skip_errors": True}
+    with pytest.raises(SystemExit, match="--list is an option of `espdiff matrix` alone"):
+        module.settings(["--list", "a.csv"])
+
+
+def test_options_of_the_example(monkeypatch):
+    """Switches, values and repeated options reach the matrix; others end it."""
+    module = example()
     words = "--cavities --potential pb --no-project --grid-spacing=1.5 --patch site=//A/8-12 --patch other=//A/3 --threads 2".split()
     assert module.settings(words) == {"cavities": True, "potential": "pb", "project": False, "grid_spacing": "1.5",
                                       "patches": {"site": "//A/8-12", "other": "//A/3"}, "threads": 2}
