@@ -127,6 +127,12 @@ nb::object ensemble(const nb::list& groups, const nb::dict& order, const Setting
     });
   }
   if (made->answer.result == nullptr) return nb::none();
+  for (FieldAnswer& field : made->answer.fields) {
+    auto own = std::make_shared<PyEnsemble>();
+    own->answer.file = std::move(field.file);
+    own->answer.result = std::move(field.result);
+    made->fields.emplace_back(field.name, std::move(own));
+  }
   return nb::cast(made);
 }
 
