@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "compare/settings.h"
 #include "engine/engine.h"
 #include "ensemble/earlier_run.h"
 #include "ensemble/ensemble_file.h"
@@ -14,7 +13,8 @@
 #include "ensemble/template_patches.h"
 #include "ensemble/write_ensemble.h"
 #include "field/field_kinds.h"
-#include "io/check_outputs.h"
+#include "io/files/check_outputs.h"
+#include "options/settings.h"
 #include "prepare/input_files.h"
 
 namespace espdiff {
