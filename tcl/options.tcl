@@ -207,12 +207,12 @@ namespace eval ::espdiff {
         return [dict get $option default]
     }
 
-    # The value of an option that was given twice: a list has both, any other option is refused.
+    # The value of an option that was given twice: a list has both; of any other the last one counts.
     proc both_values {option first second} {
         dict with option {}
         if {$kind eq "named"} { return [concat $first $second] }
-        if {$setting && $list} { return [string cat $first $separator $second] }
-        fail "[spelled [string range $name 1 end]] is given twice, '$first' and '$second'; give it once"
+        if {$setting && $list} { return $first,$second }
+        return $second
     }
 
     # -option value pairs as a dict of names without the dash; given settings are under `settings`. Options without a

@@ -241,6 +241,11 @@ def ensemble(groups=None, *, output=None, potential: str = "auto", device: str =
     _checks.computation(potential, device, threads)
     if groups is not None:
         _check_groups(groups)
+    if hasattr(options.get("fields"), "items"):
+        for name, kind in options["fields"].items():
+            if not isinstance(kind, str):
+                raise _core.InputError(f"fields[{name!r}]: an ensemble takes kinds of fields, such as 'charge', not a "
+                                       f"{type(kind).__name__}; write the values of each residue or atom to a table")
     order = {name: value for name, value in options.items() if name in ORDER_KEYS}
     settings = {name: value for name, value in options.items() if name not in ORDER_KEYS}
     if output is None and (order.get("shard") or order.get("resume")):

@@ -9,6 +9,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "engine/engine.h"
+#include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_study.h"
 #include "ensemble_result.h"
 #include "frames/frame_range.h"

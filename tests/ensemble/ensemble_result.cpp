@@ -79,6 +79,8 @@ TEST_CASE("fields of a run are tested together; one that does not change takes n
     EnsemblePlan plan = planted_plan(4, 4, 20);
     plan.field = FieldDescription{{name, std::string("Field ") + name, "", true}, name, "", {}};
     plan.n_fields = 3;
+    plan.potential = plan.field->quantity.label;
+    plan.potential_unit = "";
     const std::string path = folder.file(name + std::string(".h5"));
     if (name == std::string("still")) {
       const TemplateSurface surface = planted_template(2);
