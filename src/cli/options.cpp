@@ -115,7 +115,6 @@ bool has_setting(const Setting& setting, SettingsFor what) {
   switch (what) {
     case SettingsFor::kPair: return true;
     case SettingsFor::kVariants: return !of_side && setting.name != "patches-of";
-    case SettingsFor::kFrames: return !of_side && setting.name != "patches-of" && setting.name != "field";
     case SettingsFor::kSurface: return setting.of_surface;
     case SettingsFor::kPreparation: break;
   }

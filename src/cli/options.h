@@ -39,7 +39,6 @@ using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 enum class SettingsFor {
   kPair,        ///< all
   kVariants,    ///< of many structures alike: none of one side, no patches of one state
-  kFrames,      ///< the same without fields: of an ensemble
   kSurface,     ///< those that one molecule's surface depends on
   kPreparation  ///< which atoms, and where charges come from
 };
