@@ -208,6 +208,10 @@ void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, boo
   }
 }
 
+void add_overwrite(CLI::App& parser, bool& overwrite) {
+  parser.add_flag("--overwrite", overwrite, "Replace files of these names, if there are any");
+}
+
 GridFile read_map(const std::string& path, const std::string& array, const std::string& unit) {
   GridOptions options;
   options.array = array;

@@ -49,6 +49,9 @@ void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what);
 /// @param of_maps by the names of `espdiff potential`: `--grid` as PMEPot has it, not `--pme-grid`
 void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, bool of_maps);
 
+/// --overwrite, of a verb whose outputs are the files that its options name.
+void add_overwrite(CLI::App& parser, bool& overwrite);
+
 /// Reads a potential map and, unless `unit` is empty, declares its unit.
 GridFile read_map(const std::string& path, const std::string& array, const std::string& unit);
 

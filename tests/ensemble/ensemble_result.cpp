@@ -221,6 +221,15 @@ TEST_CASE("the conclusion comes first, and p only where something can be conclud
   CHECK(states_table.find("   p = ") != std::string::npos);
 }
 
+TEST_CASE("a replicate is named by its file up to the first dot, which is not one that hides the file") {
+  const std::vector<ReplicateRequest> replicates =
+      replicates_of_groups({{"A", "x/run1.traj.dcd", ".hidden.pdb", "none"}});
+  REQUIRE(replicates.size() == 3);
+  CHECK(replicates[0].name == "run1");
+  CHECK(replicates[1].name == ".hidden");
+  CHECK(replicates[2].name == "none");
+}
+
 TEST_CASE("replicates of a file, or some of their frames, are compared in other groups") {
   const ScratchFolder folder;
   const std::string path = folder.file("a.h5");
