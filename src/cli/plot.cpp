@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "cli/help.h"
+#include "cli/options.h"
 #include "cli/output_prefix.h"
 #include "cli/plot_pair.h"
 #include "cli/verbs.h"
@@ -29,7 +30,7 @@ struct PlotArguments {
   int top = 20;
   std::vector<std::string> metrics;
   std::vector<double> range;
-  bool both_ways = false, normalize = false, no_marks = false, causes = false;
+  bool both_ways = false, normalize = false, no_marks = false, causes = false, overwrite = false;
 };
 
 constexpr const char* kAngstrom = "\u00C5";
@@ -257,7 +258,7 @@ int plot_verb(PlotArguments& a, const Context&) {
       a.input = matrix_json_of(a.input);
   }
   const bool is_json = is_json_file();
-  check_outputs({a.input}, {a.output});
+  check_outputs({a.input}, {a.output}, a.overwrite);
   if (is_json && a.source.empty()) {
     if (a.normalize || a.both_ways) throw InputError("--normalize and --both-ways are for lines; name one --source");
     write_picture(a.output, heat_map_script(heat_map(a, read_matrix_json(a.input)), format));
@@ -303,6 +304,7 @@ void plot_frames(const std::string& table, const std::string& picture) {
   PlotArguments a;
   a.input = table;
   a.output = picture;
+  a.overwrite = true;  // as the trajectory has found it may
   plot_verb(a, {});
 }
 
@@ -318,6 +320,7 @@ Verb add_plot(CLI::App& app) {
       "Drawn by gnuplot; text stays text in an SVG.");
   parser->add_option("FILE", a->input, "A result: its prefix OUT, OUT.json, OUT.vtp, or a CSV file")->required();
   parser->add_option("-o,--output", a->output, "Picture to write (.png or .svg)")->required();
+  add_overwrite(*parser, a->overwrite);
   parser->add_option("--metric", a->metrics,
                      "Columns to draw; several for lines (default: the clustering metric; for a "
                      "trajectory mean_abs_difference)");

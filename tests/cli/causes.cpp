@@ -104,7 +104,7 @@ TEST_CASE("causes: bars are drawn of any file of the result; one without causes 
   REQUIRE(files.run("--potential coulomb --region '//A/1-3' --causes region --causes whole").status == 0);
   const std::string svg = files.folder.file("bars.svg");
   for (const char* name : {"out", "out.json", "out.vtp", "out.causes.csv"}) {
-    const Outcome outcome = run_espdiff("plot " + files.folder.file(name) + " --causes -o " + svg);
+    const Outcome outcome = run_espdiff("plot " + files.folder.file(name) + " --causes --overwrite -o " + svg);
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
     const std::string text = read_file(svg);
     for (const char* word : {"region: ", "whole: ", "SER 3 A, substituted", "kT/e"})
@@ -114,7 +114,7 @@ TEST_CASE("causes: bars are drawn of any file of the result; one without causes 
       "i.causes.csv",
       "reading,chain,residue_number,insertion_code,residue_name,kind,difference [kT/e],poorly_known\n"
       "whole,A,105,B,LYS,moved,0.5,0\nwhole,A,105,,GLY,moved,0.25,0\n");
-  REQUIRE(run_espdiff("plot " + inserted + " -o " + svg).status == 0);
+  REQUIRE(run_espdiff("plot " + inserted + " --overwrite -o " + svg).status == 0);
   for (const char* word : {"LYS 105B A, moved", "GLY 105 A, moved"})
     CHECK_MESSAGE(contains(read_file(svg), word), word);
   const Outcome without = run_espdiff("plot " + files.source + " --causes -o " + svg);
