@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "base/system_message.h"
-#include "io/elements.h"
+#include "io/molecules/elements.h"
 
 namespace espdiff_bench {
 namespace {

@@ -13,13 +13,13 @@
 #include "base/error.h"
 #include "base/handles.h"
 #include "base/progress.h"
-#include "compare/input.h"
-#include "compare/options.h"
-#include "compare/result.h"
+#include "certificate/result.h"
 #include "compare/series.h"
 #include "dcd_frames.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
+#include "mapping/input.h"
+#include "options/options.h"
 #include "pair_row.h"
 
 namespace {

@@ -15,13 +15,13 @@
 
 #include "align/superpose.h"
 #include "base/error.h"
-#include "compare/build_surface.h"
-#include "compare/map_check.h"
-#include "compare/map_warnings.h"
-#include "compare/options.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "io/read_structure.h"
+#include "input_checks/map_check.h"
+#include "input_checks/map_warnings.h"
+#include "io/structures/read_structure.h"
+#include "mapping/build_surface.h"
+#include "options/options.h"
 #include "potential/potential_series.h"
 #include "real_pairs.h"
 

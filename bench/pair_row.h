@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/result.h"
+#include "certificate/result.h"
 #include "real_pairs.h"
 
 namespace espdiff_bench {

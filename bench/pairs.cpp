@@ -13,11 +13,11 @@
 
 #include "base/progress.h"
 #include "compare/compare.h"
-#include "compare/input.h"
-#include "compare/options.h"
-#include "compare/settings.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
+#include "mapping/input.h"
+#include "options/options.h"
+#include "options/settings.h"
 #include "pair_row.h"
 #include "real_pairs.h"
 

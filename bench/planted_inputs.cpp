@@ -12,12 +12,12 @@
 
 #include "align/pair_residues.h"
 #include "base/error.h"
-#include "compare/common_frame.h"
-#include "compare/input_warnings.h"
-#include "compare/options.h"
-#include "compare/result.h"
-#include "io/read_structure.h"
-#include "io/select_atoms.h"
+#include "certificate/result.h"
+#include "input_checks/input_warnings.h"
+#include "io/molecules/select_atoms.h"
+#include "io/structures/read_structure.h"
+#include "motions/common_frame.h"
+#include "options/options.h"
 
 namespace {
 

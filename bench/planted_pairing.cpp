@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/structure_options.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
 
 namespace {
 

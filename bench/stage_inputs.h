@@ -7,9 +7,9 @@
 
 #include "base/handles.h"
 #include "base/types.h"
-#include "compare/options.h"
 #include "engine/select_engine.h"
 #include "marching_cubes_peer.h"
+#include "options/options.h"
 
 namespace espdiff_bench {
 

@@ -20,10 +20,10 @@
 #include <vector>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
-#include "io/write_csv.h"
+#include "io/files/atomic_file.h"
+#include "io/files/write_csv.h"
+#include "scene/comparison_files.h"
 #include "view/camera_view.h"
-#include "view/comparison_files.h"
 #include "view/comparison_scene.h"
 #include "view/render_window.h"
 

@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "base/progress.h"
-#include "compare/options.h"
 #include "engine/engine.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
 #include "matrix/matrix.h"
+#include "options/options.h"
 #include "random_charges.h"
 #include "real_pairs.h"
 #include "synthetic_protein.h"

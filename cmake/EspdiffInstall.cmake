@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
 set(library espdiff_system espdiff_base espdiff_io espdiff_align espdiff_engine_cpu espdiff_engine espdiff_causes espdiff_prepare
-  espdiff_field espdiff_compare espdiff_potential espdiff_report espdiff_plot espdiff_page espdiff_export)
+  espdiff_field espdiff_options espdiff_motions espdiff_mapping espdiff_certificate espdiff_input_checks espdiff_compare espdiff_potential espdiff_report espdiff_plot espdiff_page espdiff_export)
 if(ESPDIFF_CUDA_ENABLED)
   list(APPEND library espdiff_engine_cuda espdiff_cuda_thrust)
 endif()
@@ -17,7 +17,7 @@ install(TARGETS espdiff_library espdiff_flags espdiff_cpu_thrust ${library} EXPO
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(EXPORT espdiff NAMESPACE espdiff:: FILE espdiffTargets.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/espdiff COMPONENT development)
-foreach(room system base io align engine causes prepare field compare potential report plot page export)
+foreach(room system base io align engine causes prepare field options motions mapping certificate input_checks compare potential report plot page export)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/espdiff COMPONENT development
     FILES_MATCHING PATTERN "*.h")
 endforeach()

@@ -7,9 +7,9 @@
   const arrays = await Page.unpack();
   const n = record.n_vertices;
   const target = decode(record.positions.target), source = record.positions.source ? decode(record.positions.source) : target;
-  const triangles = decodeTriangles(), residueOf = new Int32Array(arrays, record.residue.offset, n);
+  const triangles = Page.decodeTriangles(record.triangles), residueOf = new Int32Array(arrays, record.residue.offset, n);
   const patchOf = record.patch ? new Int32Array(arrays, record.patch.offset, n) : null;  // 0: in none
-  const values = record.quantities.map(decode), fade = record.fade;
+  const values = Page.decodeAll(record.quantities), fade = record.fade;
   const doubt = fade ? values[record.quantities.findIndex((q) => q.name === fade.name)] : undefined;  // of the values, at each vertex
   byId('waiting').remove();
 
@@ -30,16 +30,6 @@
       }
     }
     Page.showProvenance();
-  }
-
-  // ---- arrays ---------------------------------------------------------------------------------------------------
-
-  // Each corner as its difference from the one before.
-  function decodeTriangles() {
-    const steps = new Int32Array(arrays, record.triangles.offset, 3 * record.triangles.n);
-    const out = new Uint32Array(steps.length);
-    for (let i = 0, corner = 0; i < steps.length; ++i) out[i] = corner += steps[i];
-    return out;
   }
 
   // ---- colours --------------------------------------------------------------------------------------------------
@@ -321,10 +311,12 @@
     link.download = record.title.replace(/[^A-Za-z0-9_.-]+/g, '_') + '.png';
     link.click();
   };
+  // Not click: the controls turn it off for fingers.
   let down = null;
-  renderer.domElement.addEventListener('mousedown', (event) => { down = [event.clientX, event.clientY]; });
-  renderer.domElement.addEventListener('click', (event) => {
-    if (down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 3) return;
+  renderer.domElement.addEventListener('pointerdown', (event) => { down = event.isPrimary && event.button === 0 ? [event.clientX, event.clientY] : null; });
+  renderer.domElement.addEventListener('pointerup', (event) => {
+    if (!down || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > (event.pointerType === 'touch' ? 10 : 3)) return;
+    down = null;
     const vertex = vertexAt(event), residue = vertex < 0 ? -1 : residueOf[vertex];
     if (residue >= 0 && residue < rows.length) pick(residue, false);
     if (vertex >= 0 && patchOf && patchOf[vertex] > 0) pickPatch(patchOf[vertex] - 1, false);

@@ -38,12 +38,35 @@ const Page = (() => {
     return arrays = await new Response(stream).arrayBuffer();
   }
 
-  // Single precision, or 16-bit steps between minimum and maximum; the last step stands for no value.
+  // Single precision, or steps between minimum and maximum, each as its difference from the one before: all low bytes, then
+  // all high ones. Step 65535 stands for no value.
   function decode(column) {
-    if (column.single) return new Float32Array(arrays, column.offset, column.n);
-    const steps = new Uint16Array(arrays, column.offset, column.n);
-    const out = new Float32Array(column.n), width = (column.max - column.min) / 65534;
-    for (let i = 0; i < column.n; ++i) out[i] = steps[i] === 65535 ? NaN : column.min + steps[i] * width;
+    const { offset, n, min, max, steps, stride } = column;
+    if (column.single) return new Float32Array(arrays, offset, n);
+    const low = new Uint8Array(arrays, offset, n), high = new Uint8Array(arrays, offset + n, n);
+    const at = new Uint16Array(n), out = new Float32Array(n), width = (max - min) / steps;
+    for (let i = 0; i < n; ++i) {
+      at[i] = (i < stride ? 0 : at[i - stride]) + low[i] + 256 * high[i];
+      out[i] = at[i] === 65535 ? NaN : min + at[i] * width;
+    }
+    return out;
+  }
+
+  // The values of each quantity; a target's may be the sum of the source's and the difference.
+  function decodeAll(quantities) {
+    const all = quantities.map((q) => (q.sum_of ? null : decode(q)));
+    return all.map((values, i) => {
+      if (values) return values;
+      const [a, b] = quantities[i].sum_of.map((name) => all[quantities.findIndex((q) => q.name === name)]);
+      return a.map((x, v) => x + b[v]);
+    });
+  }
+
+  // Corners, each as its difference from the one before, in four planes of bytes.
+  function decodeTriangles({ offset, n }) {
+    const bytes = new Uint8Array(arrays, offset, 12 * n), out = new Uint32Array(3 * n);
+    for (let i = 0, corner = 0, m = 3 * n; i < m; ++i)
+      out[i] = corner = (corner + (bytes[i] | bytes[m + i] << 8 | bytes[2 * m + i] << 16 | bytes[3 * m + i] << 24)) >>> 0;
     return out;
   }
 
@@ -93,5 +116,5 @@ const Page = (() => {
     document.documentElement.dataset.theme = dark ? 'dark' : 'light';
   };
 
-  return { byId, record, add, draw, picture, shown, unpack, decode, showHead, showTable, showProvenance };
+  return { byId, record, add, draw, picture, shown, unpack, decode, decodeAll, decodeTriangles, showHead, showTable, showProvenance };
 })();

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "compare/map_recipe.h"
 #include "fingerprint.h"
+#include "mapping/map_recipe.h"
 #include "tcl_values.h"
 #include "volume_store.h"
 

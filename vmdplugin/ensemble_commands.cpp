@@ -6,7 +6,7 @@
 
 #include "engine/engine.h"
 #include "ensemble_object.h"
-#include "io/sha256.h"
+#include "io/files/sha256.h"
 #include "matrix/matrix_run.h"
 #endif
 #include "base/error.h"

@@ -2,7 +2,7 @@
 #include "fingerprint.h"
 
 #include "base/types.h"
-#include "io/sha256.h"
+#include "io/files/sha256.h"
 
 namespace espdiff {
 namespace {

@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "compare/options.h"
-#include "compare/result.h"
-#include "compare/surface.h"
+#include "certificate/result.h"
 #include "endpoint.h"
+#include "frames/frame_files.h"
+#include "mapping/surface.h"
+#include "options/options.h"
 #include "potential/potential.h"
 #include "potential/potential_series.h"
 #include "study/matrix_study.h"
 #include "study/pair_study.h"
 #include "study/series_source.h"
-#include "trajectory/frame_files.h"
 #include "trajectory/trajectory.h"
 #include "worker.h"
 

@@ -1,10 +1,10 @@
 // matrix_commands.cpp: matrix compares all pairs of variants; merge joins the shards of a matrix.
 #include "base/error.h"
 #include "commands.h"
-#include "compare/input_settings.h"
-#include "compare/options.h"
 #include "engine/engine.h"
 #include "ensemble_views.h"
+#include "options/input_settings.h"
+#include "options/options.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {

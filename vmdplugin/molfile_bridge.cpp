@@ -13,8 +13,8 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "boundary.h"
-#include "io/grid_checks.h"
-#include "io/read_dx.h"
+#include "io/grids/grid_checks.h"
+#include "io/grids/read_dx.h"
 
 namespace espdiff {
 namespace {

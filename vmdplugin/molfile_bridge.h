@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/molfile_abi.h"
+#include "io/frames/molfile_abi.h"
 #include "volume_store.h"
 
 namespace espdiff {

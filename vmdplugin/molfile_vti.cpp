@@ -1,6 +1,6 @@
 // molfile_vti.cpp: the volumes that VMD sees in a VTI file.
 #include "base/error.h"
-#include "io/read_vti.h"
+#include "io/grids/read_vti.h"
 #include "molfile_bridge.h"
 
 namespace espdiff {

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "commands.h"
-#include "io/read_csv.h"
+#include "io/files/read_csv.h"
 #include "plot/line_plot.h"
 #include "tcl_values.h"
 #include "trajectory/residue_plot.h"

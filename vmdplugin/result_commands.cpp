@@ -2,13 +2,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "align/paired_residues.h"
+#include "certificate/result.h"
 #include "commands.h"
-#include "compare/paired_residues.h"
-#include "compare/result.h"
-#include "compare/surface.h"
 #include "ensemble_views.h"
-#include "io/atomic_file.h"
-#include "io/check_outputs.h"
+#include "io/files/atomic_file.h"
+#include "io/files/check_outputs.h"
+#include "mapping/surface.h"
 #include "matrix/write_matrix.h"
 #include "option_spelling.h"
 #include "page/result_page.h"

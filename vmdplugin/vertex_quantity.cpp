@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "compare/result.h"
+#include "certificate/result.h"
 #include "ensemble_views.h"
 #include "report/potential_json.h"
 

@@ -16,9 +16,9 @@
 #include "base/error.h"
 #include "cli/command_line.h"
 #include "held.h"
-#include "io/coordinate_file.h"
-#include "io/frame_reader.h"
-#include "io/read_input.h"
+#include "io/files/read_input.h"
+#include "io/frames/frame_reader.h"
+#include "io/structures/coordinate_file.h"
 #include "state.h"
 
 namespace espdiff::python {

@@ -12,9 +12,9 @@
 
 #include "arrays.h"
 #include "base/error.h"
-#include "compare/slip.h"
+#include "certificate/slip.h"
 #include "engine/engine.h"
-#include "io/check_outputs.h"
+#include "io/files/check_outputs.h"
 #include "report/metrics.h"
 #include "report/potential_json.h"
 #include "report/write_compare.h"

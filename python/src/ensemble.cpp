@@ -11,11 +11,11 @@
 #include "engine/engine.h"
 #include "ensemble/ensemble_study.h"
 #include "ensemble_result.h"
+#include "frames/frame_range.h"
 #include "held.h"
 #include "inputs.h"
 #include "matrix/matrix_run.h"
 #include "run.h"
-#include "trajectory/frame_range.h"
 #endif
 
 namespace espdiff::python {

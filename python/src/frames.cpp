@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "base/error.h"
-#include "io/open_structure.h"
+#include "frames/frame_files.h"
+#include "io/frames/open_structure.h"
 #include "run.h"
 #include "state.h"
-#include "trajectory/frame_files.h"
 
 namespace espdiff::python {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "compare/settings.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
+#include "options/settings.h"
 
 namespace espdiff::python {
 namespace {

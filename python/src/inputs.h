@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/options.h"
+#include "options/options.h"
 #include "potential/potential_plan.h"
 #include "state.h"
 

@@ -12,8 +12,8 @@
 #include "base/error.h"
 #include "engine/engine.h"
 #include "inputs.h"
-#include "io/atomic_file.h"
-#include "io/write_grid.h"
+#include "io/files/atomic_file.h"
+#include "io/grids/write_grid.h"
 #include "potential/potential_series.h"
 #include "run.h"
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/printable.h"
+#include "certificate/result.h"
 #include "cli/help.h"
 #include "cli/map_options.h"
 #include "cli/next_command.h"
@@ -16,12 +17,11 @@
 #include "cli/verbs.h"
 #include "cli/verdict_status.h"
 #include "cli/ways_on.h"
-#include "compare/options.h"
-#include "compare/result.h"
 #include "engine/engine.h"
 #include "field/field_kinds.h"
-#include "io/atomic_file.h"
-#include "io/check_outputs.h"
+#include "io/files/atomic_file.h"
+#include "io/files/check_outputs.h"
+#include "options/options.h"
 #include "prepare/input_files.h"
 #include "prepare/preparation.h"
 #include "report/provenance.h"

@@ -11,9 +11,9 @@
 #include "cli/spelling.h"
 #include "cli/verbs.h"
 #include "engine/select_engine.h"
-#include "io/frame_reader.h"
-#include "io/molfile_plugins.h"
-#include "io/run_program.h"
+#include "io/files/run_program.h"
+#include "io/frames/frame_reader.h"
+#include "io/frames/molfile_plugins.h"
 #include "prepare/pdb2pqr.h"
 #if defined(ESPDIFF_HAVE_VTK)
 #include "view/display.h"

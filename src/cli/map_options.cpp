@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "io/write_csv.h"
+#include "io/files/write_csv.h"
 #include "potential/potential.h"
 
 namespace espdiff::cli {

@@ -9,9 +9,9 @@
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
-#include "compare/options.h"
 #include "engine/engine.h"
 #include "matrix/write_matrix.h"
+#include "options/options.h"
 #include "study/matrix_study.h"
 
 namespace espdiff::cli {

@@ -8,11 +8,11 @@
 
 #include "base/error.h"
 #include "cli/spelling.h"
-#include "compare/options.h"
 #include "engine/select_engine.h"
-#include "io/read_grid.h"
-#include "io/text_cursor.h"
-#include "io/write_csv.h"
+#include "io/files/write_csv.h"
+#include "io/grids/read_grid.h"
+#include "io/text/text_cursor.h"
+#include "options/options.h"
 
 namespace espdiff::cli {
 namespace {

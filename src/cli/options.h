@@ -11,8 +11,8 @@
 
 #include "base/handles.h"
 #include "base/structure_options.h"
-#include "compare/settings.h"
-#include "io/read_grid.h"
+#include "io/grids/read_grid.h"
+#include "options/settings.h"
 #include "potential/potential.h"
 #include "potential/potential_settings.h"
 

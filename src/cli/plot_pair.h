@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "io/read_csv.h"
+#include "io/files/read_csv.h"
 #include "plot/state_plot.h"
 
 namespace espdiff::cli {

@@ -2,7 +2,7 @@
 #include "cli/help.h"
 #include "cli/output_prefix.h"
 #include "cli/verbs.h"
-#include "io/atomic_file.h"
+#include "io/files/atomic_file.h"
 #if defined(ESPDIFF_HAVE_VTK)
 #include <cstdio>
 #include <filesystem>
@@ -10,8 +10,8 @@
 #include "base/error.h"
 #include "base/printable.h"
 #include "cli/scene_options.h"
-#include "io/check_outputs.h"
-#include "io/text_cursor.h"
+#include "io/files/check_outputs.h"
+#include "io/text/text_cursor.h"
 #include "view/render_surface.h"
 #endif
 

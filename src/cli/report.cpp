@@ -7,8 +7,8 @@
 #include "cli/help.h"
 #include "cli/output_prefix.h"
 #include "cli/verbs.h"
-#include "io/atomic_file.h"
-#include "io/check_outputs.h"
+#include "io/files/atomic_file.h"
+#include "io/files/check_outputs.h"
 #include "page/result_page.h"
 
 namespace espdiff::cli {

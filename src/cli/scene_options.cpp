@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "cli/output_prefix.h"
-#include "io/atomic_file.h"
-#include "io/text_cursor.h"
+#include "io/files/atomic_file.h"
+#include "io/text/text_cursor.h"
 #include "plot/shared_range.h"
 
 namespace espdiff::cli {

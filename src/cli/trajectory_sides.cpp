@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "compare/options.h"
-#include "io/molfile_plugins.h"
-#include "io/open_structure.h"
-#include "io/structure_file.h"
+#include "frames/frame_state.h"
+#include "io/frames/molfile_plugins.h"
+#include "io/frames/open_structure.h"
+#include "io/structures/structure_file.h"
+#include "options/options.h"
 #include "report/state_report.h"
-#include "trajectory/frame_state.h"
 
 namespace espdiff::cli {
 

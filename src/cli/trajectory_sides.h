@@ -9,9 +9,9 @@
 #include "base/types.h"
 #include "cli/map_options.h"
 #include "cli/options.h"
+#include "frames/frame_files.h"
+#include "frames/frame_range.h"
 #include "study/series_source.h"
-#include "trajectory/frame_files.h"
-#include "trajectory/frame_range.h"
 #include "trajectory/trajectory.h"
 
 namespace espdiff::cli {

@@ -1,7 +1,7 @@
 // verdict_status.h: the exit status of an answer.
 #pragma once
 
-#include "compare/result.h"
+#include "certificate/result.h"
 
 namespace espdiff::cli {
 

@@ -3,12 +3,12 @@
 #include "cli/help.h"
 #include "cli/output_prefix.h"
 #include "cli/verbs.h"
-#include "io/atomic_file.h"
+#include "io/files/atomic_file.h"
 #if defined(ESPDIFF_HAVE_VTK)
 #include <filesystem>
 
 #include "cli/scene_options.h"
-#include "io/check_outputs.h"
+#include "io/files/check_outputs.h"
 #include "view/viewer.h"
 #endif
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "compare/result.h"
+#include "certificate/result.h"
 
 namespace espdiff::cli {
 namespace {

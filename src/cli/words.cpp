@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "cli/help.h"
-#include "io/entry_code.h"
-#include "io/text_cursor.h"
+#include "io/text/entry_code.h"
+#include "io/text/text_cursor.h"
 
 namespace espdiff::cli {
 namespace {

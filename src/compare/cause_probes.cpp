@@ -7,7 +7,7 @@
 #include "align/residue_names.h"
 #include "base/error.h"
 #include "base/not_a_number.h"
-#include "compare/options.h"
+#include "options/options.h"
 
 namespace espdiff {
 namespace {

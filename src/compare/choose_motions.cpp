@@ -5,8 +5,8 @@
 
 #include "align/rigid_domains.h"
 #include "base/not_a_number.h"
-#include "compare/certificate.h"
-#include "compare/slip.h"
+#include "certificate/certificate.h"
+#include "certificate/slip.h"
 
 namespace espdiff {
 namespace {

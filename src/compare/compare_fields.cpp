@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "base/error.h"
-#include "compare/options.h"
-#include "compare/sample_outside.h"
-#include "compare/trusted_area.h"
+#include "certificate/trusted_area.h"
 #include "engine/engine.h"
 #include "field/read_field.h"
+#include "mapping/sample_outside.h"
+#include "options/options.h"
 
 namespace espdiff {
 namespace {

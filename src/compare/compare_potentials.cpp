@@ -5,11 +5,11 @@
 #include <limits>
 #include <utility>
 
-#include "compare/options.h"
-#include "compare/sample_outside.h"
-#include "compare/side_maps.h"
-#include "compare/trusted_area.h"
+#include "certificate/trusted_area.h"
 #include "engine/engine.h"
+#include "mapping/sample_outside.h"
+#include "mapping/side_maps.h"
+#include "options/options.h"
 
 namespace espdiff {
 namespace {

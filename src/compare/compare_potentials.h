@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/handles.h"
+#include "certificate/result.h"
 #include "compare/measured_parts.h"
-#include "compare/result.h"
 
 namespace espdiff {
 

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "align/pair_atoms.h"
+#include "align/paired_residues.h"
 #include "align/superpose.h"
 #include "base/error.h"
 #include "base/not_a_number.h"
-#include "compare/atom_paths.h"
-#include "compare/options.h"
-#include "compare/paired_residues.h"
 #include "engine/engine.h"
+#include "motions/atom_paths.h"
+#include "options/options.h"
 
 namespace espdiff {
 namespace {

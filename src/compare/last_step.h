@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "base/handles.h"
-#include "compare/common_frame.h"
-#include "compare/options.h"
 #include "compare/series.h"
 #include "engine/morph_stage.h"
+#include "motions/common_frame.h"
+#include "options/options.h"
 
 namespace espdiff {
 

@@ -5,12 +5,12 @@
 #include <limits>
 #include <utility>
 
+#include "align/paired_residues.h"
 #include "align/superpose.h"
-#include "compare/certificate.h"
-#include "compare/paired_residues.h"
-#include "compare/residue_rows.h"
-#include "compare/slip.h"
-#include "compare/turned_side_chains.h"
+#include "certificate/certificate.h"
+#include "certificate/residue_rows.h"
+#include "certificate/slip.h"
+#include "certificate/turned_side_chains.h"
 #include "engine/engine.h"
 
 namespace espdiff {

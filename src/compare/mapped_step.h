@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "base/handles.h"
-#include "compare/build_surface.h"
-#include "compare/common_frame.h"
-#include "compare/mapping.h"
-#include "compare/result.h"
+#include "certificate/result.h"
 #include "engine/morph_stage.h"
+#include "mapping/build_surface.h"
+#include "mapping/mapping.h"
+#include "motions/common_frame.h"
 
 namespace espdiff {
 

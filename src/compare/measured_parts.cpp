@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "compare/certificate.h"
-#include "compare/place_patch.h"
+#include "certificate/certificate.h"
+#include "certificate/place_patch.h"
 #include "engine/engine.h"
 
 namespace espdiff {

@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "compare/input.h"
+#include "certificate/region_result.h"
 #include "compare/mapped_step.h"
-#include "compare/region_result.h"
+#include "mapping/input.h"
 
 namespace espdiff {
 

@@ -5,9 +5,9 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "certificate/result.h"
 #include "compare/compare_fields.h"
-#include "compare/options.h"
-#include "compare/result.h"
+#include "options/options.h"
 
 namespace espdiff {
 namespace {

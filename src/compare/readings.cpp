@@ -5,15 +5,16 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/short_numbers.h"
 #include "base/surface_parts.h"
 #include "causes/causes.h"
 #include "causes/reading.h"
 #include "compare/cause_probes.h"
-#include "compare/map_recipe.h"
-#include "compare/options.h"
-#include "compare/sample_outside.h"
-#include "compare/short_numbers.h"
 #include "engine/engine.h"
+#include "mapping/map_recipe.h"
+#include "mapping/sample_outside.h"
+#include "options/input_settings.h"
+#include "options/options.h"
 
 namespace espdiff {
 namespace {
@@ -114,43 +115,7 @@ std::vector<double> take_probes(std::vector<double>& values, std::size_t n_charg
   return of_probes;
 }
 
-/// @param text the reading as it was given
-void require_patch(const CompareOptions& options, const std::string& text, const std::string& name) {
-  const auto is_it = [&](const PatchRequest& patch) { return patch.name == name; };
-  if (std::any_of(options.input.patches.begin(), options.input.patches.end(), is_it)) return;
-  throw InputError(option("causes", text) + ": there is no patch of that name; give " +
-                   option("patch", name + "=SELECTION"));
-}
-
 }  // namespace
-
-void check_readings(const CompareOptions& options) {
-  for (const char* name : {"scan", "side-chains"}) {
-    const bool is_asked = name == std::string("scan") ? options.scan : options.side_chains > 0;
-    if (is_asked && options.causes.empty())
-      throw InputError(option(name) + " is of a reading: give " + option("causes") + " as well, such as " +
-                       option("causes", "whole"));
-  }
-  const auto is_whole = [](const std::string& text) { return parse_reading(text).of == ReadingOf::kWhole; };
-  if (options.side_chains > 0 && std::all_of(options.causes.begin(), options.causes.end(), is_whole))
-    throw InputError(option("side-chains") + " is of a mean difference: give " + option("causes", "region") +
-                     ", a patch or a residue; the whole's reading is a mean of sizes, which is not linear");
-  for (const std::string& text : options.causes) {
-    const ReadingRequest request = parse_reading(text);
-    if (request.of == ReadingOf::kRegion && !options.input.has_region())
-      throw InputError(option("causes", "region") + " needs a region: give " + option("region") + " or " +
-                       option("region-within") + " and " + option("of"));
-    // A number may be that of a patch which an ensemble finds.
-    const bool is_number = request.patch.find_first_not_of("0123456789") == std::string::npos;
-    if (request.of == ReadingOf::kPatch && !is_number) require_patch(options, text, request.patch);
-  }
-}
-
-void refuse_causes(const CompareOptions& options, const char* of_what) {
-  if (options.causes.empty()) return;
-  throw InputError(option("causes") + " is of one pair, not of " + of_what +
-                   "; compare the two states in question with it");
-}
 
 void check_causes(const CompareOptions& options, const CompareInput& source, const CompareInput& target) {
   if (options.causes.empty()) return;

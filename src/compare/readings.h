@@ -4,17 +4,11 @@
 #include <vector>
 
 #include "compare/compare_potentials.h"
-#include "compare/input.h"
+#include "mapping/input.h"
 
 namespace espdiff {
 
 struct CompareOptions;
-
-/// @throws InputError for causes of a region or patch that is not asked for
-void check_readings(const CompareOptions& options);
-
-/// For what makes several results of one kind. @throws InputError where causes are asked for
-void refuse_causes(const CompareOptions& options, const char* of_what);
 
 /// Before any work. @throws InputError (a potential that is not computed, a residue that the source lacks)
 void check_causes(const CompareOptions& options, const CompareInput& source, const CompareInput& target);

@@ -8,7 +8,7 @@
 #include "base/handles.h"
 #include "base/progress.h"
 #include "base/types.h"
-#include "compare/start_from.h"
+#include "mapping/start_from.h"
 
 namespace espdiff {
 

@@ -11,7 +11,7 @@
 #include "base/progress.h"
 #include "base/types.h"
 #include "base/units.h"
-#include "compare/surface_summary.h"
+#include "mapping/surface_summary.h"
 
 namespace espdiff {
 

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/printable.h"
 #include "base/residue_label.h"
-#include "io/select_atoms.h"
+#include "io/molecules/select_atoms.h"
 
 namespace espdiff {
 namespace {

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "compare/settings.h"
 #include "ensemble/ensemble_file.h"
+#include "options/settings.h"
 
 namespace espdiff {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "base/progress.h"
-#include "compare/options.h"
 #include "ensemble/ensemble_inputs.h"
+#include "options/options.h"
 
 namespace espdiff {
 

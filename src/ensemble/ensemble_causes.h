@@ -11,7 +11,7 @@
 #include "base/handles.h"
 #include "base/message.h"
 #include "base/progress.h"
-#include "compare/input.h"
+#include "mapping/input.h"
 #include "statistics/surface_test.h"
 
 namespace espdiff {

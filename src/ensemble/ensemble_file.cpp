@@ -14,7 +14,7 @@
 #include "base/system_message.h"
 #include "ensemble/hdf5_layout.h"
 #include "ensemble/hdf5_reader.h"
-#include "io/sibling_file.h"
+#include "io/files/sibling_file.h"
 #include "system/open_file.h"
 
 namespace espdiff {

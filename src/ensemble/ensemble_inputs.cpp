@@ -9,17 +9,17 @@
 #include "align/superpose.h"
 #include "base/error.h"
 #include "base/version.h"
-#include "compare/settings.h"
 #include "ensemble/medoid.h"
 #include "ensemble/template_choice.h"
-#include "io/molfile_plugins.h"
-#include "io/sha256.h"
-#include "io/structure_file.h"
+#include "frames/frame_range.h"
+#include "frames/frame_state.h"
+#include "io/files/sha256.h"
+#include "io/frames/molfile_plugins.h"
+#include "io/structures/structure_file.h"
+#include "options/settings.h"
 #include "prepare/load_state.h"
 #include "prepare/surface_radii.h"
 #include "prepare/take_charges.h"
-#include "trajectory/frame_range.h"
-#include "trajectory/frame_state.h"
 
 namespace espdiff {
 namespace {

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "base/structure_options.h"
-#include "compare/input.h"
-#include "compare/options.h"
 #include "ensemble/ensemble_plan.h"
 #include "ensemble/given_maps.h"
 #include "ensemble/replicate_request.h"
+#include "frames/frame_files.h"
+#include "mapping/input.h"
+#include "options/options.h"
 #include "potential/potential_plan.h"
-#include "trajectory/frame_files.h"
 
 namespace espdiff {
 

@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
-#include "io/json_integer.h"
-#include "io/json_values.h"
+#include "io/text/json_integer.h"
+#include "io/text/json_values.h"
 #include "matrix/matrix_plan.h"
 #include "matrix/plan_difference.h"
 #include "statistics/permutations.h"

@@ -11,11 +11,11 @@
 #include "base/error.h"
 #include "base/not_a_number.h"
 #include "base/residue_label.h"
-#include "compare/options.h"
 #include "compare/template_mapping.h"
 #include "ensemble/ensemble_file.h"
-#include "io/check_outputs.h"
+#include "io/files/check_outputs.h"
 #include "matrix/matrix_run.h"
+#include "options/options.h"
 #include "statistics/mesh_graph.h"
 
 namespace espdiff {

@@ -9,8 +9,8 @@
 
 #include "base/handles.h"
 #include "base/progress.h"
-#include "compare/input.h"
 #include "ensemble/ensemble_plan.h"
+#include "mapping/input.h"
 #include "matrix/matrix.h"
 
 namespace espdiff {

@@ -5,14 +5,14 @@
 #include <utility>
 
 #include "base/error.h"
-#include "compare/settings.h"
 #include "engine/engine.h"
 #include "ensemble/earlier_run.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/relabel.h"
 #include "ensemble/template_patches.h"
 #include "ensemble/write_ensemble.h"
-#include "io/check_outputs.h"
+#include "io/files/check_outputs.h"
+#include "options/settings.h"
 #include "prepare/input_files.h"
 
 namespace espdiff {

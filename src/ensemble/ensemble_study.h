@@ -11,10 +11,10 @@
 #include "base/handles.h"
 #include "base/message.h"
 #include "base/progress.h"
-#include "compare/options.h"
 #include "ensemble/ensemble_inputs.h"
 #include "ensemble/ensemble_result.h"
 #include "ensemble/ensemble_run.h"
+#include "options/options.h"
 
 namespace espdiff {
 

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "ensemble/map_pattern.h"
-#include "io/read_grid.h"
+#include "io/grids/read_grid.h"
 
 namespace espdiff {
 namespace {

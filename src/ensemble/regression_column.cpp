@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "io/read_csv.h"
+#include "io/files/read_csv.h"
 
 namespace espdiff {
 

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/replicate_request.h"
-#include "trajectory/frame_range.h"
+#include "frames/frame_range.h"
 
 namespace espdiff {
 namespace {

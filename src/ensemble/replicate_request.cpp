@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "io/molfile_plugins.h"
-#include "io/read_csv.h"
+#include "io/files/read_csv.h"
+#include "io/frames/molfile_plugins.h"
 #include "prepare/load_state.h"
 
 namespace espdiff {

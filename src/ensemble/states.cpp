@@ -9,7 +9,7 @@
 #include "base/not_a_number.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
-#include "io/write_csv.h"
+#include "io/files/write_csv.h"
 
 namespace espdiff {
 namespace {

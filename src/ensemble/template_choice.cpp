@@ -1,9 +1,9 @@
 // template_choice.cpp: reads a template, and tells one from another.
 #include "ensemble/template_choice.h"
 
-#include "compare/options.h"
-#include "io/sha256.h"
-#include "io/structure_file.h"
+#include "io/files/sha256.h"
+#include "io/structures/structure_file.h"
+#include "options/options.h"
 #include "prepare/load_state.h"
 
 namespace espdiff {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/structure_options.h"
-#include "compare/options.h"
 #include "matrix/matrix_run.h"
+#include "options/options.h"
 
 namespace espdiff {
 

@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "base/residue_label.h"
-#include "compare/options.h"
-#include "compare/place_patch.h"
-#include "compare/region_result.h"
+#include "certificate/place_patch.h"
+#include "certificate/region_result.h"
 #include "compare/template_mapping.h"
 #include "ensemble/ensemble_plan.h"
 #include "ensemble/ensemble_result.h"
+#include "options/options.h"
 #include "prepare/region.h"
 
 namespace espdiff {

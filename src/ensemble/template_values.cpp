@@ -11,12 +11,12 @@
 #include "base/counter_random.h"
 #include "base/error.h"
 #include "base/not_a_number.h"
-#include "compare/options.h"
-#include "compare/settings.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
 #include "ensemble/state_sums.h"
 #include "ensemble/template_patches.h"
+#include "options/options.h"
+#include "options/settings.h"
 #include "statistics/mesh_graph.h"
 
 namespace espdiff {

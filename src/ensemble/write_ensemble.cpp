@@ -9,9 +9,9 @@
 #include "base/version.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
-#include "io/atomic_file.h"
-#include "io/write_csv.h"
-#include "io/write_vtp.h"
+#include "io/files/atomic_file.h"
+#include "io/files/write_csv.h"
+#include "io/vtk/write_vtp.h"
 
 namespace espdiff {
 namespace {

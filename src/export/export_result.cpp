@@ -10,11 +10,11 @@
 #include "export/write_mvsj.h"
 #include "export/write_ply.h"
 #include "export/write_script.h"
-#include "io/atomic_file.h"
-#include "io/check_outputs.h"
-#include "io/run_record.h"
-#include "io/write_cif.h"
-#include "io/write_pdb.h"
+#include "io/files/atomic_file.h"
+#include "io/files/check_outputs.h"
+#include "io/molecules/write_cif.h"
+#include "io/molecules/write_pdb.h"
+#include "io/structures/run_record.h"
 
 namespace espdiff {
 namespace {

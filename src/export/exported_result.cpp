@@ -11,7 +11,7 @@
 #include "base/formatted.h"
 #include "base/printable.h"
 #include "base/version.h"
-#include "io/run_record.h"
+#include "io/structures/run_record.h"
 #include "plot/automatic_range.h"
 
 namespace espdiff {

@@ -6,7 +6,7 @@
 
 #include "base/version.h"
 #include "export/little_endian.h"
-#include "io/write_cif.h"
+#include "io/molecules/write_cif.h"
 
 namespace espdiff {
 namespace {

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "base/formatted.h"
-#include "io/base64.h"
-#include "io/write_cif.h"
+#include "io/files/base64.h"
+#include "io/molecules/write_cif.h"
 
 namespace espdiff {
 namespace {

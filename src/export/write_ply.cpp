@@ -2,7 +2,7 @@
 #include "export/write_ply.h"
 
 #include "export/little_endian.h"
-#include "io/write_cif.h"
+#include "io/molecules/write_cif.h"
 
 namespace espdiff {
 namespace {

@@ -11,8 +11,8 @@
 #include "base/error.h"
 #include "base/residue_label.h"
 #include "field/file_pattern.h"
-#include "io/read_csv.h"
-#include "io/sha256.h"
+#include "io/files/read_csv.h"
+#include "io/files/sha256.h"
 
 namespace espdiff {
 

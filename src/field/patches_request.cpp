@@ -7,7 +7,7 @@
 #include "base/formatted.h"
 #include "base/printable.h"
 #include "field/field_patches.h"
-#include "io/text_cursor.h"
+#include "io/text/text_cursor.h"
 
 namespace espdiff {
 namespace {

@@ -6,13 +6,13 @@
 
 #include "base/error.h"
 #include "base/version.h"
-#include "compare/input_settings.h"
-#include "compare/map_recipe.h"
-#include "compare/options.h"
-#include "compare/settings.h"
 #include "engine/engine.h"
 #include "field/field_kinds.h"
+#include "mapping/map_recipe.h"
 #include "matrix/plan_difference.h"
+#include "options/input_settings.h"
+#include "options/options.h"
+#include "options/settings.h"
 #include "report/field_json.h"
 
 namespace espdiff {

@@ -9,13 +9,13 @@
 #include <set>
 
 #include "base/error.h"
-#include "compare/input_settings.h"
-#include "compare/options.h"
 #include "compare/readings.h"
-#include "io/atomic_file.h"
-#include "io/check_outputs.h"
+#include "io/files/atomic_file.h"
+#include "io/files/check_outputs.h"
 #include "matrix/matrix_state.h"
 #include "matrix/write_matrix.h"
+#include "options/input_settings.h"
+#include "options/options.h"
 
 namespace espdiff {
 namespace {

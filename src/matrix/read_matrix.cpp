@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "io/json_integer.h"
-#include "io/json_values.h"
-#include "io/read_input.h"
+#include "io/files/read_input.h"
+#include "io/text/json_integer.h"
+#include "io/text/json_values.h"
 
 namespace espdiff {
 namespace {

@@ -10,11 +10,11 @@
 #include "base/error.h"
 #include "base/input_options.h"
 #include "compare/compare_fields.h"
-#include "compare/options.h"
 #include "field/field_kinds.h"
-#include "io/read_csv.h"
-#include "io/structure_file.h"
-#include "io/text_cursor.h"
+#include "io/files/read_csv.h"
+#include "io/structures/structure_file.h"
+#include "io/text/text_cursor.h"
+#include "options/options.h"
 #include "prepare/region.h"
 
 namespace espdiff {

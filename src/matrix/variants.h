@@ -8,7 +8,7 @@
 
 #include "base/structure_options.h"
 #include "base/types.h"
-#include "compare/input.h"
+#include "mapping/input.h"
 #include "prepare/load_state.h"
 #include "report/provenance.h"
 

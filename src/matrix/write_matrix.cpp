@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/formats.h"
-#include "io/atomic_file.h"
-#include "io/write_csv.h"
+#include "io/files/atomic_file.h"
+#include "io/files/write_csv.h"
 #include "matrix/write_through_template.h"
 #include "report/json_number.h"
 #include "report/write_compare.h"

@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/formats.h"
-#include "io/read_csv.h"
-#include "io/read_vtp.h"
-#include "io/write_csv.h"
+#include "io/files/read_csv.h"
+#include "io/files/write_csv.h"
+#include "io/vtk/read_vtp.h"
 #include "page/assembled_page.h"
 #include "page/ensemble_tables.h"
 #include "page/page_arrays.h"
@@ -96,7 +96,7 @@ void add_surface(EnsembleJson& page, PageArrays& arrays, const EnsembleFiles& fi
   const VtpContent& surface = files.surface;
   require_page_size(surface.triangles.size(), files.prefix);
   page["n_vertices"] = surface.positions.size();
-  page["positions"]["target"] = arrays.add_numbers(page_coordinates(surface.positions));
+  page["positions"]["target"] = add_page_positions(arrays, surface.positions);
   add_quantities(page, arrays, files);
   const VtpNumbers* const untested = find_array(surface.cell_arrays, "untested");
   std::vector<Triangle> counted, rest;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "io/write_csv.h"
+#include "io/files/write_csv.h"
 
 namespace espdiff {
 namespace {

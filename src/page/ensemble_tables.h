@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "io/read_csv.h"
-#include "io/read_vtp.h"
+#include "io/files/read_csv.h"
+#include "io/vtk/read_vtp.h"
 
 namespace espdiff {
 

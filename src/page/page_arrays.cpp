@@ -1,4 +1,4 @@
-// page_arrays.cpp: numbers for a page in a browser: 16-bit steps, deflated, as base64.
+// page_arrays.cpp: numbers for a page in a browser: steps of at most 16 bits, deflated, as base64.
 #include "page/page_arrays.h"
 
 #if defined(ESPDIFF_HAVE_ZLIB)
@@ -10,16 +10,22 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "io/base64.h"
+#include "io/files/base64.h"
 
 namespace espdiff {
 namespace {
 
-constexpr int kSteps = 65534;
-constexpr std::uint16_t kNoValue = 65535;
+constexpr std::uint32_t kNoValue = 65535;
 
 void append_bits(std::string& bytes, std::uint32_t value, int n_bytes) {
   for (int i = 0; i < n_bytes; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xffU);
+}
+
+/// The lowest bytes of all numbers, then the next ones.
+void append_planes(std::string& bytes, const std::vector<std::uint32_t>& values, int n_bytes) {
+  for (int plane = 0; plane < n_bytes; ++plane) {
+    for (const std::uint32_t value : values) bytes += static_cast<char>((value >> (8 * plane)) & 0xffU);
+  }
 }
 
 std::string deflated(const std::string& bytes) {
@@ -51,7 +57,7 @@ std::size_t PageArrays::begin(std::size_t alignment) {
   return bytes_.size();
 }
 
-nlohmann::ordered_json PageArrays::add_numbers(const std::vector<double>& values) {
+nlohmann::ordered_json PageArrays::add_numbers(const std::vector<double>& values, int n_steps, int stride) {
   double low = 0, high = 0;
   bool is_first = true;
   for (const double value : values) {
@@ -60,12 +66,19 @@ nlohmann::ordered_json PageArrays::add_numbers(const std::vector<double>& values
     high = is_first ? value : std::max(high, value);
     is_first = false;
   }
-  const std::size_t offset = begin(2);
-  const double steps = high > low ? kSteps / (high - low) : 0;
-  for (const double value : values)
-    append_bits(bytes_,
-                std::isfinite(value) ? static_cast<std::uint32_t>(std::lround((value - low) * steps)) : kNoValue, 2);
-  return {{"offset", offset}, {"n", values.size()}, {"min", low}, {"max", high}};
+  const double scale = high > low ? n_steps / (high - low) : 0;
+  std::vector<std::uint32_t> differences, before(static_cast<std::size_t>(stride), 0);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::uint32_t& last = before[i % before.size()];
+    const std::uint32_t step =
+        std::isfinite(values[i]) ? static_cast<std::uint32_t>(std::lround((values[i] - low) * scale)) : kNoValue;
+    differences.push_back(step - last);
+    last = step;
+  }
+  const std::size_t offset = bytes_.size();
+  append_planes(bytes_, differences, 2);
+  return {{"offset", offset}, {"n", values.size()}, {"min", low},
+          {"max", high},      {"steps", n_steps},   {"stride", stride}};
 }
 
 nlohmann::ordered_json PageArrays::add_singles(const std::vector<double>& values) {
@@ -80,14 +93,16 @@ nlohmann::ordered_json PageArrays::add_singles(const std::vector<double>& values
 }
 
 nlohmann::ordered_json PageArrays::add_triangles(const std::vector<Triangle>& triangles) {
-  const std::size_t offset = begin(4);
+  std::vector<std::uint32_t> differences;
   std::uint32_t before = 0;
   for (const Triangle& triangle : triangles) {
     for (const auto corner : triangle) {
-      append_bits(bytes_, static_cast<std::uint32_t>(corner) - before, 4);
+      differences.push_back(static_cast<std::uint32_t>(corner) - before);
       before = static_cast<std::uint32_t>(corner);
     }
   }
+  const std::size_t offset = bytes_.size();
+  append_planes(bytes_, differences, 4);
   return {{"offset", offset}, {"n", triangles.size()}};
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "io/run_record.h"
+#include "io/structures/run_record.h"
 #include "page/page_surface.h"
 
 namespace espdiff {
@@ -62,9 +62,8 @@ nlohmann::ordered_json backbone_of(PageArrays& arrays, const Molecule& molecule,
     sides.push_back(side);
     before = r;
   }
-  return {{"chains", chains},
-          {"points", arrays.add_numbers(page_coordinates(points))},
-          {"sides", arrays.add_numbers(page_coordinates(sides))}};
+  return {
+      {"chains", chains}, {"points", add_page_positions(arrays, points)}, {"sides", add_page_positions(arrays, sides)}};
 }
 
 }  // namespace

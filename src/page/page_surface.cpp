@@ -26,10 +26,10 @@ std::vector<std::string> surface_page_scripts() {
   return {"three.min.js", "TrackballControls.js", "shared.js", "ribbon.js", "patches.js", "report.js"};
 }
 
-std::vector<double> page_coordinates(const std::vector<Vec3d>& positions) {
+nlohmann::ordered_json add_page_positions(PageArrays& arrays, const std::vector<Vec3d>& positions) {
   std::vector<double> all;
   for (const Vec3d& p : positions) all.insert(all.end(), {p.x, p.y, p.z});
-  return all;
+  return arrays.add_numbers(all, PageArrays::kFineSteps, 3);
 }
 
 std::vector<std::int32_t> page_integers(const VtpContent& surface, const std::string& name, const std::string& prefix) {
@@ -42,14 +42,19 @@ std::vector<std::int32_t> page_integers(const VtpContent& surface, const std::st
   return out;
 }
 
+nlohmann::ordered_json quantity_texts(const VtpNumbers& values, const std::string& label, const std::string& unit,
+                                      bool is_signed) {
+  return {{"name", values.name},
+          {"label", label},
+          {"unit", unit},
+          {"signed", is_signed},
+          {"range", automatic_limit({values.values.begin(), values.values.end()})}};
+}
+
 nlohmann::ordered_json page_quantity(PageArrays& arrays, const VtpNumbers& values, const std::string& label,
                                      const std::string& unit, bool is_signed) {
-  nlohmann::ordered_json json = arrays.add_numbers(values.values);
-  json["name"] = values.name;
-  json["label"] = label;
-  json["unit"] = unit;
-  json["signed"] = is_signed;
-  json["range"] = automatic_limit({values.values.begin(), values.values.end()});
+  nlohmann::ordered_json json = arrays.add_numbers(values.values, PageArrays::kColourSteps);
+  json.update(quantity_texts(values, label, unit, is_signed));
   return json;
 }
 

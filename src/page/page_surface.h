@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/read_vtp.h"
+#include "io/vtk/read_vtp.h"
 #include "page/page_arrays.h"
 
 namespace espdiff {
@@ -20,14 +20,17 @@ void require_page_size(std::size_t n_triangles, const std::string& prefix);
 /// Embedded files, in the order in which they run.
 std::vector<std::string> surface_page_scripts();
 
-/// [3 * vertex]
-std::vector<double> page_coordinates(const std::vector<Vec3d>& positions);
+/// Coordinates, in kFineSteps of the whole: 0.001 A in 65 A.
+nlohmann::ordered_json add_page_positions(PageArrays& arrays, const std::vector<Vec3d>& positions);
 
 /// [vertex] an array of whole numbers; -1 where there is none.
 /// @throws FormatError (OUT.vtp has no such array)
 std::vector<std::int32_t> page_integers(const VtpContent& surface, const std::string& name, const std::string& prefix);
 
-/// A quantity of the record: its array, name, label, unit, and the range that covers 90 % of the values.
+/// A quantity of the record: name, label, unit, and the range that covers 90 % of the values.
+nlohmann::ordered_json quantity_texts(const VtpNumbers& values, const std::string& label, const std::string& unit,
+                                      bool is_signed);
+/// The same with its array.
 nlohmann::ordered_json page_quantity(PageArrays& arrays, const VtpNumbers& values, const std::string& label,
                                      const std::string& unit, bool is_signed);
 

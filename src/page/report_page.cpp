@@ -2,11 +2,12 @@
 #include "page/report_page.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "base/surface_parts.h"
-#include "io/write_csv.h"
+#include "io/files/write_csv.h"
 #include "page/assembled_page.h"
 #include "page/page_arrays.h"
 #include "page/page_molecule.h"
@@ -125,10 +126,35 @@ Json cause_tables(const Json& record) {
 
 // ---- surface --------------------------------------------------------------------------------------------------------
 
+/// Names of the two arrays whose sum an array is, to rounding; empty without such: a target's values are the source's
+/// and the difference, and need no array of their own in a page.
+std::vector<std::string> summands_of(const VtpContent& surface, const VtpNumbers& array) {
+  const std::string ending = "_target", name = array.name;
+  if (name.size() <= ending.size() || name.substr(name.size() - ending.size()) != ending) return {};
+  const std::string stem = name.substr(0, name.size() - ending.size());
+  const VtpNumbers* const source = find_array(surface.point_arrays, stem + "_source");
+  const VtpNumbers* const difference = find_array(surface.point_arrays, stem + "_difference");
+  if (source == nullptr || difference == nullptr || source->n_components != 1 || difference->n_components != 1)
+    return {};
+  for (std::size_t i = 0; i < array.values.size(); ++i) {
+    const double a = source->values[i], b = difference->values[i], sum = array.values[i];
+    if (std::isfinite(a + b) != std::isfinite(sum)) return {};
+    constexpr double kSingle = 1e-6;  // of the file's numbers
+    if (std::isfinite(sum) && std::abs(a + b - sum) > kSingle * (std::abs(a) + std::abs(b) + std::abs(sum))) return {};
+  }
+  return {source->name, difference->name};
+}
+
 Json quantities_json(PageArrays& arrays, const PairFiles& files) {
   Json list = Json::array();
   for (const SurfaceQuantity& quantity : surface_quantities(files)) {
-    list.push_back(page_quantity(arrays, *quantity.values, quantity.label, quantity.unit, quantity.is_signed));
+    const std::vector<std::string> summands = summands_of(files.surface, *quantity.values);
+    if (summands.empty()) {
+      list.push_back(page_quantity(arrays, *quantity.values, quantity.label, quantity.unit, quantity.is_signed));
+    } else {
+      list.push_back(quantity_texts(*quantity.values, quantity.label, quantity.unit, quantity.is_signed));
+      list.back()["sum_of"] = summands;
+    }
   }
   return list;
 }
@@ -137,8 +163,8 @@ void add_surface(Json& page, PageArrays& arrays, const PairFiles& files) {
   const VtpContent& surface = files.surface;
   require_page_size(surface.triangles.size(), files.prefix);
   page["n_vertices"] = surface.positions.size();
-  page["positions"]["target"] = arrays.add_numbers(page_coordinates(surface.positions));
-  page["positions"]["source"] = arrays.add_numbers(page_coordinates(superposed_source(files)));
+  page["positions"]["target"] = add_page_positions(arrays, surface.positions);
+  page["positions"]["source"] = add_page_positions(arrays, superposed_source(files));
   page["quantities"] = quantities_json(arrays, files);
   const CountedTriangles triangles = counted_triangles(surface);
   add_page_triangles(page, arrays, triangles.counted, triangles.rest);

@@ -8,14 +8,15 @@
 #include <map>
 
 #include "base/error.h"
-#include "io/json_values.h"
-#include "io/read_csv.h"
-#include "io/read_input.h"
+#include "io/files/read_csv.h"
+#include "io/files/read_input.h"
+#include "io/text/json_values.h"
 #include "page/assembled_page.h"
 #include "page/page_arrays.h"
 #include "plot/automatic_range.h"
 #include "report/field_json.h"
 #include "report/metrics.h"
+#include "report/pair_files.h"
 
 namespace espdiff {
 namespace {
@@ -120,6 +121,7 @@ StudyJson clustered_order(const StudyJson& record, const std::map<std::string, s
 
 void add_matrix(StudyJson& page, PageArrays& arrays, const std::string& prefix) {
   const StudyJson record = read_study_json(prefix + ".json");
+  require_format_version(record, prefix + ".json");
   const CsvTable table = read_csv(prefix + ".csv");
   require_rows(table);
   const std::size_t source = table.require("source"), target = table.require("target");
@@ -148,7 +150,7 @@ void add_matrix(StudyJson& page, PageArrays& arrays, const std::string& prefix) 
   add_summary(page, "pairs");
   const StudyJson program = {"Program", "espdiff " + record.value("version", "")};
   provenance.insert(provenance.begin(), program);
-  provenance.push_back({"Options", record.value("options", StudyJson()).dump()});
+  provenance.push_back({"Options", options_of(record)});
   page["provenance"] = std::move(provenance);
   page["states"] = std::to_string(n) + " variants; each row is a source, each column a target";
 }

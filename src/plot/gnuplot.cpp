@@ -7,10 +7,10 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
-#include "io/atomic_file.h"
-#include "io/run_program.h"
-#include "io/text_cursor.h"
-#include "io/write_csv.h"
+#include "io/files/atomic_file.h"
+#include "io/files/run_program.h"
+#include "io/files/write_csv.h"
+#include "io/text/text_cursor.h"
 #include "plot/colour_map.h"
 
 namespace espdiff {

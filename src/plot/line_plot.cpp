@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "io/write_csv.h"
+#include "io/files/write_csv.h"
 
 namespace espdiff {
 namespace {

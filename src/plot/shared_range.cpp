@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "io/read_vtp.h"
+#include "io/vtk/read_vtp.h"
 
 namespace espdiff {
 namespace {

@@ -8,9 +8,9 @@
 #include "align/superpose.h"
 #include "base/error.h"
 #include "base/water.h"
-#include "compare/map_recipe.h"
 #include "engine/engine.h"
-#include "io/sha256.h"
+#include "io/files/sha256.h"
+#include "mapping/map_recipe.h"
 #include "potential/potential.h"
 
 namespace espdiff {

@@ -8,7 +8,7 @@
 
 #include "base/types.h"
 #include "base/unit_cell.h"
-#include "compare/input.h"
+#include "mapping/input.h"
 #include "potential/potential.h"
 
 namespace espdiff {

@@ -11,8 +11,8 @@
 #include "align/unwrap.h"
 #include "base/error.h"
 #include "base/water.h"
-#include "compare/map_recipe.h"
 #include "engine/engine.h"
+#include "mapping/map_recipe.h"
 
 namespace espdiff {
 namespace {

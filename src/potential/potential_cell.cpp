@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "base/vector.h"
-#include "io/text_cursor.h"
+#include "io/text/text_cursor.h"
 #include "potential/potential.h"
 
 namespace espdiff {

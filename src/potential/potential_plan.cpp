@@ -2,8 +2,8 @@
 #include "potential/potential_plan.h"
 
 #include "base/error.h"
-#include "io/select_atoms.h"
-#include "io/structure_file.h"
+#include "io/molecules/select_atoms.h"
+#include "io/structures/structure_file.h"
 #include "prepare/pdb2pqr.h"
 
 namespace espdiff {

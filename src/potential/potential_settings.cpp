@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "compare/map_recipe.h"
-#include "io/text_cursor.h"
+#include "io/text/text_cursor.h"
+#include "mapping/map_recipe.h"
 
 namespace espdiff {
 namespace {
@@ -199,7 +199,7 @@ void add_coulomb_settings(std::vector<PotentialSetting>& all) {
       "The dielectric grows with the distance: dielectric times r in Angstrom (4 is ChimeraX's)"));
 }
 
-/// As those of compare/settings.cpp.
+/// As those of options/settings.cpp.
 constexpr SettingLimits kPotentialLimits[] = {{"ion-radius", 0, 20},
                                               {"probe-radius", 0, 20},
                                               {"gaussian-sigma", 0.05, 20},

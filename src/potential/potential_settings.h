@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/settings.h"
+#include "options/settings.h"
 #include "potential/potential.h"
 
 namespace espdiff {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
-#include "io/read_input.h"
-#include "io/sha256.h"
+#include "io/files/atomic_file.h"
+#include "io/files/read_input.h"
+#include "io/files/sha256.h"
 
 namespace espdiff {
 namespace {

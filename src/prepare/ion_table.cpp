@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "align/residue_charges.h"
-#include "io/elements.h"
+#include "io/molecules/elements.h"
 
 namespace espdiff {
 namespace {

@@ -8,7 +8,7 @@
 #include "align/residue_names.h"
 #include "align/superpose.h"
 #include "base/error.h"
-#include "io/molecule_builder.h"
+#include "io/molecules/molecule_builder.h"
 
 namespace espdiff {
 namespace {

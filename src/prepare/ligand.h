@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/types.h"
-#include "io/read_mol2.h"
+#include "io/structures/read_mol2.h"
 
 namespace espdiff {
 

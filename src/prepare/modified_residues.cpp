@@ -11,7 +11,7 @@
 
 #include "align/protonation.h"
 #include "align/residue_names.h"
-#include "io/select_atoms.h"
+#include "io/molecules/select_atoms.h"
 #include "prepare/open_babel.h"
 #include "prepare/preparation.h"
 

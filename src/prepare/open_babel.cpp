@@ -11,12 +11,12 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "base/residue_label.h"
-#include "io/elements.h"
-#include "io/read_mol2.h"
-#include "io/run_program.h"
-#include "io/select_atoms.h"
-#include "io/temporary_folder.h"
-#include "io/write_pdb.h"
+#include "io/files/run_program.h"
+#include "io/files/temporary_folder.h"
+#include "io/molecules/elements.h"
+#include "io/molecules/select_atoms.h"
+#include "io/molecules/write_pdb.h"
+#include "io/structures/read_mol2.h"
 
 namespace espdiff {
 

@@ -9,10 +9,10 @@
 #include "base/earlier_patch.h"
 #include "base/error.h"
 #include "base/residue_label.h"
-#include "io/json_values.h"
-#include "io/read_input.h"
-#include "io/read_vtp.h"
-#include "io/text_cursor.h"
+#include "io/files/read_input.h"
+#include "io/text/json_values.h"
+#include "io/text/text_cursor.h"
+#include "io/vtk/read_vtp.h"
 
 namespace espdiff {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "align/pair_residues.h"
 #include "base/error.h"
-#include "io/select_atoms.h"
+#include "io/molecules/select_atoms.h"
 #include "prepare/read_earlier_patch.h"
 
 namespace espdiff {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "io/elements.h"
+#include "io/molecules/elements.h"
 
 namespace espdiff {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/formatted.h"
 #include "causes/causes.h"
-#include "io/write_csv.h"
+#include "io/files/write_csv.h"
 #include "report/cause_numbers.h"
 #include "report/json_number.h"
 #include "report/probed_causes.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/formatted.h"
-#include "compare/result.h"
-#include "compare/trusted_area.h"
+#include "certificate/result.h"
+#include "certificate/trusted_area.h"
 #include "report/field_patches_report.h"
 #include "report/metrics.h"
 #include "report/record.h"

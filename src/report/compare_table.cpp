@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "base/formatted.h"
-#include "compare/map_recipe.h"
-#include "compare/options.h"
-#include "compare/short_numbers.h"
-#include "compare/trusted_area.h"
+#include "base/short_numbers.h"
+#include "certificate/trusted_area.h"
+#include "mapping/map_recipe.h"
+#include "options/options.h"
 #include "report/field_patches_report.h"
 #include "report/metrics.h"
 #include "report/record.h"

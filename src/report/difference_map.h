@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/types.h"
-#include "compare/result.h"
+#include "certificate/result.h"
 
 namespace espdiff {
 

@@ -5,8 +5,8 @@
 
 #include "base/formatted.h"
 #include "base/residue_label.h"
-#include "compare/result.h"
-#include "io/write_csv.h"
+#include "certificate/result.h"
+#include "io/files/write_csv.h"
 #include "report/json_number.h"
 #include "report/record.h"
 

@@ -13,11 +13,11 @@
 #include "base/formatted.h"
 #include "base/not_a_number.h"
 #include "base/surface_parts.h"
-#include "compare/input_settings.h"
-#include "compare/options.h"
-#include "compare/region_result.h"
-#include "compare/result.h"
+#include "certificate/region_result.h"
+#include "certificate/result.h"
 #include "field/field_kinds.h"
+#include "options/input_settings.h"
+#include "options/options.h"
 
 namespace espdiff {
 namespace {

@@ -5,8 +5,9 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "io/json_values.h"
-#include "io/read_input.h"
+#include "base/formats.h"
+#include "io/files/read_input.h"
+#include "io/text/json_values.h"
 #include "report/metrics.h"
 
 namespace espdiff {
@@ -69,6 +70,22 @@ std::vector<std::string> texts_of(const RecordJson& json, const std::string& nam
   return texts;
 }
 
+struct FieldWords {
+  std::string label, unit;
+};
+
+/// What the record says of the field whose values at the source, the target, or their difference an array has; empty
+/// without one.
+FieldWords field_words(const RecordJson& record, const std::string& array) {
+  const std::size_t end = array.rfind('_');
+  const RecordJson fields = record.value("fields", RecordJson::object());
+  if (end == std::string::npos || !fields.is_object() || !fields.contains(array.substr(0, end))) return {};
+  const RecordJson& field = fields.at(array.substr(0, end));
+  const std::string label = text_of(field, "label");
+  if (label.empty()) return {};
+  return {label + ", " + array.substr(end + 1), text_of(field, "unit")};
+}
+
 /// The metric of a column such as "mean_slip", whose name may lack its unit.
 const Metric* metric_of_residue_column(const std::string& name) {
   for (const char* ending : {"", "_A", "_A2"}) {
@@ -77,7 +94,9 @@ const Metric* metric_of_residue_column(const std::string& name) {
   return nullptr;
 }
 
-std::string options_of(const RecordJson& record) {
+}  // namespace
+
+std::string options_of(const nlohmann::ordered_json& record) {
   std::string options;
   const RecordJson settings = record.value("options", RecordJson::object());  // items() keeps a reference
   for (const auto& [name, value] : settings.items()) {
@@ -87,7 +106,15 @@ std::string options_of(const RecordJson& record) {
   return options;
 }
 
-}  // namespace
+void require_format_version(const nlohmann::ordered_json& record, const std::string& path) {
+  const RecordJson version = record.value("format_version", RecordJson(kFormatVersion));
+  if (version == kFormatVersion) return;
+  const std::string program = text_of(record, "version");
+  throw FormatError(path, 0,
+                    "version " + version.dump() + " of the format" +
+                        (program.empty() ? "" : ", written by espdiff " + program) + "; this espdiff reads version " +
+                        std::to_string(kFormatVersion) + ": use that espdiff, or compute the result again");
+}
 
 nlohmann::ordered_json read_comparison_record(const std::string& path) {
   std::error_code ignored;
@@ -98,6 +125,7 @@ nlohmann::ordered_json read_comparison_record(const std::string& path) {
   RecordJson record = RecordJson::parse(file.content, nullptr, false);
   if (record.is_discarded() || !is_whole(record))
     throw FormatError(path, 0, "not a record that `espdiff compare` wrote; compare again");
+  require_format_version(record, path);
   return record;
 }
 
@@ -133,9 +161,11 @@ std::vector<SurfaceQuantity> surface_quantities(const PairFiles& files) {
     const bool is_usual = std::any_of(std::begin(kUsualQuantities), std::end(kUsualQuantities),
                                       [&](const UsualQuantity& usual) { return array.name == usual.array; });
     if (is_usual || array.n_components != 1 || array.name.rfind("residue_", 0) == 0) continue;
+    if (array.name == "target_residue_index") continue;  // a number of no size
     const bool has_negative =
         std::any_of(array.values.begin(), array.values.end(), [](double value) { return value < 0; });
-    quantities.push_back({&array, array.name, "", has_negative});
+    const FieldWords field = field_words(files.record, array.name);
+    quantities.push_back({&array, field.label.empty() ? array.name : field.label, field.unit, has_negative});
   }
   return quantities;
 }

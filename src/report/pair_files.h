@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/types.h"
-#include "io/read_csv.h"
-#include "io/read_vtp.h"
+#include "io/files/read_csv.h"
+#include "io/vtk/read_vtp.h"
 
 namespace espdiff {
 
@@ -20,6 +20,13 @@ struct PairFiles {
   CsvTable residues;              ///< OUT.residues.csv
   std::string unit;               ///< of potentials, such as "kT/e"; empty without potentials
 };
+
+/// A result's record of this version of its format; one without a version is older than versions, and passes.
+/// @throws FormatError (another version)
+void require_format_version(const nlohmann::ordered_json& record, const std::string& path);
+
+/// A record's options as one line, "align all, domains as-needed ...", without those that are empty.
+std::string options_of(const nlohmann::ordered_json& record);
 
 /// The content of OUT.json.
 /// @throws IoError, FormatError (a missing or damaged file, or one of something else), MemoryError

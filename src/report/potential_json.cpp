@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "compare/map_check.h"
-#include "compare/result.h"
+#include "certificate/result.h"
+#include "input_checks/map_check.h"
 #include "report/json_number.h"
 
 namespace espdiff {

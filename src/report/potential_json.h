@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "compare/map_recipe.h"
+#include "mapping/map_recipe.h"
 
 namespace espdiff {
 

@@ -6,7 +6,7 @@
 
 #include "base/not_a_number.h"
 #include "base/printable.h"
-#include "compare/map_recipe.h"
+#include "mapping/map_recipe.h"
 #include "report/metrics.h"
 
 namespace espdiff {

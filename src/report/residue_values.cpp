@@ -7,9 +7,9 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "causes/causes.h"
-#include "compare/result.h"
-#include "io/atomic_file.h"
-#include "io/write_pdb.h"
+#include "certificate/result.h"
+#include "io/files/atomic_file.h"
+#include "io/molecules/write_pdb.h"
 #include "report/metrics.h"
 #include "report/potential_json.h"
 

@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "base/formatted.h"
-#include "compare/result.h"
-#include "io/sha256.h"
-#include "io/write_pqr.h"
+#include "certificate/result.h"
+#include "io/files/sha256.h"
+#include "io/molecules/write_pqr.h"
 #include "prepare/load_state.h"
 #include "report/provenance.h"
 #include "report/write_compare.h"

@@ -10,7 +10,7 @@
 
 #include "base/message.h"
 #include "base/types.h"
-#include "io/write_vtp.h"
+#include "io/vtk/write_vtp.h"
 
 namespace espdiff {
 

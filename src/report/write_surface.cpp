@@ -1,10 +1,10 @@
 // write_surface.cpp: one molecule's surface as a .vtp file.
 #include "report/write_surface.h"
 
-#include "compare/map_recipe.h"
-#include "compare/surface.h"
-#include "io/atomic_file.h"
-#include "io/write_vtp.h"
+#include "io/files/atomic_file.h"
+#include "io/vtk/write_vtp.h"
+#include "mapping/map_recipe.h"
+#include "mapping/surface.h"
 
 namespace espdiff {
 

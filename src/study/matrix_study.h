@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/handles.h"
-#include "compare/options.h"
 #include "matrix/matrix_run.h"
+#include "options/options.h"
 #include "study/state.h"
 
 namespace espdiff {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/handles.h"
-#include "compare/options.h"
-#include "compare/result.h"
+#include "certificate/result.h"
+#include "options/options.h"
 #include "report/write_compare.h"
 #include "study/state.h"
 

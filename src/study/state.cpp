@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "base/error.h"
-#include "compare/options.h"
 #include "field/given_values.h"
-#include "io/read_grid.h"
-#include "io/select_atoms.h"
-#include "io/sha256.h"
-#include "io/structure_file.h"
+#include "io/files/sha256.h"
+#include "io/grids/read_grid.h"
+#include "io/molecules/select_atoms.h"
+#include "io/structures/structure_file.h"
+#include "options/options.h"
 #include "prepare/pdb2pqr.h"
 #include "report/state_report.h"
 

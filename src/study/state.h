@@ -12,7 +12,7 @@
 #include "base/structure_options.h"
 #include "base/types.h"
 #include "base/unit_cell.h"
-#include "compare/input.h"
+#include "mapping/input.h"
 #include "potential/computed_map.h"
 #include "potential/potential_plan.h"
 #include "prepare/load_state.h"

@@ -7,11 +7,11 @@
 #include <sstream>
 #include <utility>
 
+#include "align/paired_residues.h"
 #include "base/error.h"
-#include "compare/paired_residues.h"
-#include "compare/result.h"
-#include "io/read_csv.h"
-#include "io/write_csv.h"
+#include "certificate/result.h"
+#include "io/files/read_csv.h"
+#include "io/files/write_csv.h"
 #include "report/residue_values.h"
 
 namespace espdiff {

@@ -6,7 +6,7 @@
 
 #include "base/quantity.h"
 #include "base/types.h"
-#include "io/appended_file.h"
+#include "io/files/appended_file.h"
 
 namespace espdiff {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "io/read_csv.h"
-#include "io/write_csv.h"
+#include "io/files/read_csv.h"
+#include "io/files/write_csv.h"
 #include "report/metrics.h"
 #include "trajectory/residue_csv.h"
 

@@ -5,11 +5,11 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "compare/options.h"
-#include "io/read_csv.h"
-#include "io/sha256.h"
-#include "io/text_cursor.h"
-#include "io/write_csv.h"
+#include "io/files/read_csv.h"
+#include "io/files/sha256.h"
+#include "io/files/write_csv.h"
+#include "io/text/text_cursor.h"
+#include "options/options.h"
 
 namespace espdiff {
 namespace {

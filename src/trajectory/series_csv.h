@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/appended_file.h"
+#include "io/files/appended_file.h"
 #include "trajectory/series_row.h"
 
 namespace espdiff {

@@ -14,11 +14,11 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "io/atomic_file.h"
-#include "io/json_integer.h"
-#include "io/json_values.h"
-#include "io/read_input.h"
-#include "io/sha256.h"
+#include "io/files/atomic_file.h"
+#include "io/files/read_input.h"
+#include "io/files/sha256.h"
+#include "io/text/json_integer.h"
+#include "io/text/json_values.h"
 
 namespace espdiff {
 namespace {

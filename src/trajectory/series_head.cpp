@@ -5,12 +5,12 @@
 
 #include "base/error.h"
 #include "base/version.h"
-#include "compare/settings.h"
 #include "field/field_kinds.h"
-#include "io/sha256.h"
+#include "frames/frame_range.h"
+#include "io/files/sha256.h"
+#include "options/settings.h"
 #include "prepare/read_earlier_patch.h"
 #include "report/field_json.h"
-#include "trajectory/frame_range.h"
 
 namespace espdiff {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/structure_options.h"
-#include "compare/options.h"
 #include "compare/series.h"
+#include "options/options.h"
 #include "trajectory/series_csv.h"
 
 namespace espdiff {

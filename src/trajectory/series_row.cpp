@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "compare/region_result.h"
-#include "compare/result.h"
+#include "certificate/region_result.h"
+#include "certificate/result.h"
 #include "report/metrics.h"
 #include "report/provenance.h"
 #include "report/write_compare.h"

@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <utility>
 
-#include "compare/input.h"
+#include "certificate/result.h"
 #include "compare/readings.h"
-#include "compare/result.h"
-#include "io/text_cursor.h"
+#include "io/text/text_cursor.h"
+#include "mapping/input.h"
 #include "report/residue_values.h"
 #include "report/state_report.h"
 #include "trajectory/series_file.h"

@@ -9,9 +9,9 @@
 
 #include "base/error.h"
 #include "base/handles.h"
-#include "compare/input.h"
-#include "compare/options.h"
 #include "compare/series.h"
+#include "mapping/input.h"
+#include "options/options.h"
 #include "report/provenance.h"
 #include "trajectory/residue_csv.h"
 #include "trajectory/series_csv.h"

@@ -10,9 +10,9 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "io/read_grid.h"
-#include "io/read_input.h"
-#include "io/sha256.h"
+#include "io/files/read_input.h"
+#include "io/files/sha256.h"
+#include "io/grids/read_grid.h"
 
 namespace espdiff {
 namespace {

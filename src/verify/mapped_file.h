@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "io/read_csv.h"
-#include "io/read_vtp.h"
+#include "io/files/read_csv.h"
+#include "io/vtk/read_vtp.h"
 #include "verify/lines.h"
 
 namespace espdiff {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "base/not_a_number.h"
-#include "io/read_csv.h"
+#include "io/files/read_csv.h"
 #include "verify/mapped_file.h"
 
 namespace espdiff {

@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
-#include "io/json_values.h"
-#include "io/read_input.h"
+#include "io/files/read_input.h"
+#include "io/text/json_values.h"
 
 namespace espdiff {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
-#include "io/structure_file.h"
+#include "io/structures/structure_file.h"
 #include "verify/lines.h"
 #include "verify/map_deviation.h"
 #include "verify/mapped_file.h"

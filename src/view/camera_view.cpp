@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "base/vector.h"
-#include "view/orientation.h"
+#include "scene/orientation.h"
 
 namespace espdiff {
 namespace {

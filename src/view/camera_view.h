@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "view/scene.h"
+#include "scene/scene.h"
 
 class vtkRenderer;
 

@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include "base/vector.h"
-#include "view/secondary_structure.h"
+#include "scene/secondary_structure.h"
 
 namespace espdiff {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/types.h"
 #include "plot/colour_map.h"
-#include "view/comparison_files.h"
+#include "scene/comparison_files.h"
 #include "view/residue_labels.h"
 
 namespace espdiff {

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "view/comparison_files.h"
+#include "scene/comparison_files.h"
+#include "scene/scene.h"
 #include "view/panels.h"
 #include "view/residue_labels.h"
-#include "view/scene.h"
 #include "view/surface_geometry.h"
 #include "view/surface_mapper.h"
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <optional>
 
+#include "scene/map_sampling.h"
 #include "view/map_drawings.h"
-#include "view/map_sampling.h"
 
 namespace espdiff {
 namespace {

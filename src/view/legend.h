@@ -7,7 +7,7 @@
 
 #include "base/vector.h"
 #include "plot/colour_map.h"
-#include "view/colour_scale.h"
+#include "scene/colour_scale.h"
 
 class vtkRenderer;
 

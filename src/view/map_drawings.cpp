@@ -18,7 +18,7 @@
 
 #include <cmath>
 
-#include "view/map_sampling.h"
+#include "scene/map_sampling.h"
 
 namespace espdiff {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/types.h"
+#include "scene/colour_scale.h"
 #include "view/camera_view.h"
-#include "view/colour_scale.h"
 
 class vtkPolyData;
 class vtkProp;

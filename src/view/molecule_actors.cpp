@@ -19,8 +19,8 @@
 #include <map>
 #include <set>
 
+#include "scene/secondary_structure.h"
 #include "view/cartoon.h"
-#include "view/secondary_structure.h"
 
 namespace espdiff {
 namespace {

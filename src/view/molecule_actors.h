@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/types.h"
-#include "view/scene.h"
+#include "scene/scene.h"
 
 namespace espdiff {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "view/scene.h"
+#include "scene/scene.h"
 
 namespace espdiff {
 

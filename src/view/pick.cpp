@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "base/formatted.h"
-#include "view/map_sampling.h"
+#include "scene/map_sampling.h"
 #include "view/residue_labels.h"
 
 namespace espdiff {

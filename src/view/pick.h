@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "view/comparison_files.h"
+#include "scene/comparison_files.h"
 #include "view/surface_geometry.h"
 
 namespace espdiff {

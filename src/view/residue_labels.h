@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/types.h"
-#include "view/surface_file.h"
+#include "scene/surface_file.h"
 
 class vtkProp;
 class vtkRenderer;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "view/scene.h"
+#include "scene/scene.h"
 
 namespace espdiff {
 

@@ -1,7 +1,7 @@
 // scene_legend.h: the annotations around a scene's views: title, names of views, scales, keys.
 #pragma once
 
-#include "view/scene.h"
+#include "scene/scene.h"
 
 class vtkRenderer;
 

@@ -13,7 +13,7 @@
 #include <cmath>
 
 #include "base/smooth_field.h"
-#include "view/map_sampling.h"
+#include "scene/map_sampling.h"
 
 namespace espdiff {
 namespace {

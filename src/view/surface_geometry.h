@@ -7,10 +7,10 @@
 #include <memory>
 #include <vector>
 
-#include "io/run_record.h"
-#include "view/map_pair.h"
-#include "view/surface_cover.h"
-#include "view/surface_file.h"
+#include "io/structures/run_record.h"
+#include "scene/map_pair.h"
+#include "scene/surface_cover.h"
+#include "scene/surface_file.h"
 #include "view/surface_mapper.h"
 
 class vtkPolyData;

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "view/colour_scale.h"
+#include "scene/colour_scale.h"
 #include "view/colour_texture.h"
 #include "view/map_texture.h"
 

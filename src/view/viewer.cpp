@@ -17,7 +17,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
-#include "io/atomic_file.h"
+#include "io/files/atomic_file.h"
 #include "view/camera_view.h"
 #include "view/comparison_scene.h"
 #include "view/display.h"

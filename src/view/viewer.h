@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "view/scene.h"
+#include "scene/scene.h"
 
 namespace espdiff {
 

@@ -4,7 +4,7 @@
 #include "../support/test_data.h"
 #include "align/pair_atoms.h"
 #include "align/superpose.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
 
 using namespace espdiff;
 using espdiff_test::real_input;

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-#include "io/read_csv.h"
+#include "io/files/read_csv.h"
 
 namespace espdiff_test {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cli/run_espdiff.h"
-#include "io/run_program.h"
+#include "io/files/run_program.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 using Json = nlohmann::json;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/run_espdiff.h"
-#include "io/read_csv.h"
+#include "io/files/read_csv.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 using Json = nlohmann::json;

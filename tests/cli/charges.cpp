@@ -9,8 +9,8 @@
 #include <string>
 
 #include "cli/run_espdiff.h"
-#include "io/read_csv.h"
-#include "io/read_vtp.h"
+#include "io/files/read_csv.h"
+#include "io/vtk/read_vtp.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 using Json = nlohmann::json;

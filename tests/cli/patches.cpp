@@ -10,8 +10,8 @@
 
 #include "cli/bent_row.h"
 #include "cli/run_espdiff.h"
-#include "io/read_csv.h"
-#include "io/read_vtp.h"
+#include "io/files/read_csv.h"
+#include "io/vtk/read_vtp.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 using Json = nlohmann::json;

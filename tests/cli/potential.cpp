@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "cli/run_espdiff.h"
-#include "io/read_grid.h"
+#include "io/grids/read_grid.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 using espdiff::read_grid;

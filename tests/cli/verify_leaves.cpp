@@ -13,7 +13,7 @@
 
 #include "cli/bent_row.h"
 #include "cli/small_result.h"
-#include "io/read_csv.h"
+#include "io/files/read_csv.h"
 
 using namespace espdiff_test;
 using espdiff::CsvTable;

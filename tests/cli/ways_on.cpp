@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "base/types.h"
-#include "compare/result.h"
+#include "certificate/result.h"
 
 using espdiff::cli::has_time_for;
 using espdiff::cli::WayOn;

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "cli/run_espdiff.h"
-#include "io/sha256.h"
+#include "io/files/sha256.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 

@@ -11,9 +11,9 @@
 #include "compare/built_molecule.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
-#include "compare/options.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
+#include "options/options.h"
 
 using namespace espdiff_test;
 using espdiff::compare;

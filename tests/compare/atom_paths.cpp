@@ -1,5 +1,5 @@
 // atom_paths.cpp: where unpaired atoms grow and shrink, and how that scales.
-#include "compare/atom_paths.h"
+#include "motions/atom_paths.h"
 
 #include <ctime>
 

@@ -5,8 +5,8 @@
 
 #include "align/pair_atoms.h"
 #include "align/pair_residues.h"
-#include "compare/input_warnings.h"
 #include "compare/made_peptide.h"
+#include "input_checks/input_warnings.h"
 
 using namespace espdiff;
 using espdiff_test::add_ion;

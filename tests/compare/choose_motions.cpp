@@ -12,11 +12,11 @@
 #include "base/progress.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
-#include "compare/options.h"
 #include "compare/series.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
+#include "options/options.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;

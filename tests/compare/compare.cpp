@@ -7,15 +7,15 @@
 #include <limits>
 
 #include "base/error.h"
+#include "certificate/result.h"
 #include "compare/compare.h"
-#include "compare/input.h"
 #include "compare/made_side.h"
-#include "compare/options.h"
-#include "compare/result.h"
 #include "cuda/surface/back_ends.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
+#include "mapping/input.h"
+#include "options/options.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;

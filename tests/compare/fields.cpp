@@ -7,11 +7,11 @@
 #include "base/error.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
-#include "compare/settings.h"
 #include "cuda/surface/back_ends.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "io/write_grid.h"
+#include "io/grids/write_grid.h"
+#include "options/settings.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "align/pair_residues.h"
-#include "compare/input_warnings.h"
 #include "compare/made_peptide.h"
+#include "input_checks/input_warnings.h"
 
 using namespace espdiff;
 using espdiff_test::made_peptide;

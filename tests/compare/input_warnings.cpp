@@ -1,6 +1,6 @@
 // input_warnings.cpp: errors of correspondence are named, and right pairs that look wrong are not refused; by the
 // checks of the inputs alone, without surfaces.
-#include "compare/input_warnings.h"
+#include "input_checks/input_warnings.h"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 
 #include "base/structure_options.h"
 #include "compare/planted_pairing.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;

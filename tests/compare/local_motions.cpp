@@ -1,5 +1,5 @@
 // local_motions.cpp: chains that bend, wind up and break; the reverse; and a real pair whose parts turn by themselves.
-#include "compare/local_motions.h"
+#include "motions/local_motions.h"
 
 #include <doctest/doctest.h>
 
@@ -8,15 +8,15 @@
 #include <string>
 
 #include "base/pairing.h"
+#include "certificate/result.h"
 #include "compare/built_molecule.h"
-#include "compare/common_frame.h"
 #include "compare/compare.h"
-#include "compare/input.h"
-#include "compare/options.h"
-#include "compare/result.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
+#include "mapping/input.h"
+#include "motions/common_frame.h"
+#include "options/options.h"
 #include "support/random.h"
 #include "support/test_data.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/local_rotations.h"
+#include "motions/local_rotations.h"
 #include "support/random.h"
 
 using namespace espdiff_test;

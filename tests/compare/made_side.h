@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/input.h"
-#include "compare/options.h"
-#include "compare/result.h"
+#include "certificate/result.h"
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/shapes.h"
+#include "mapping/input.h"
+#include "options/options.h"
 #include "support/random.h"
 
 namespace espdiff_test {

@@ -1,11 +1,11 @@
 // mapped_cgal.cpp: the morph's matched part does not intersect itself, by CGAL, on real pairs.
 #include <doctest/doctest.h>
 
+#include "certificate/result.h"
 #include "compare/compare.h"
-#include "compare/input.h"
-#include "compare/options.h"
-#include "compare/result.h"
 #include "engine/engine.h"
+#include "mapping/input.h"
+#include "options/options.h"
 #include "support/test_data.h"
 
 #if defined(ESPDIFF_HAVE_CGAL)
@@ -16,7 +16,7 @@
 
 #include "cuda/certificate/cgal_mesh.h"
 #include "engine/select_engine.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
 
 using namespace espdiff_test;
 

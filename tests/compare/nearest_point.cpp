@@ -1,5 +1,5 @@
 // nearest_point.cpp: the tree against a look at every point.
-#include "compare/nearest_point.h"
+#include "align/nearest_point.h"
 
 #include <random>
 

@@ -1,6 +1,6 @@
 // own_potentials.cpp: each residue's potential on its own surface, and the correlation that checks the mapped
 // differences.
-#include "compare/own_potentials.h"
+#include "certificate/own_potentials.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // The place of a patch on another surface: exact on a rigid copy, whatever moved elsewhere; and where there is none.
-#include "compare/place_patch.h"
+#include "certificate/place_patch.h"
 
 #include <doctest/doctest.h>
 

@@ -9,13 +9,13 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/structure_options.h"
+#include "certificate/result.h"
 #include "compare/compare.h"
-#include "compare/input.h"
-#include "compare/options.h"
-#include "compare/result.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
+#include "mapping/input.h"
+#include "options/options.h"
 
 namespace espdiff_test {
 namespace {

@@ -10,9 +10,9 @@
 #include "align/chain_links.h"
 #include "align/superpose.h"
 #include "base/error.h"
-#include "compare/common_frame.h"
-#include "compare/input_warnings.h"
-#include "compare/options.h"
+#include "input_checks/input_warnings.h"
+#include "motions/common_frame.h"
+#include "options/options.h"
 
 namespace espdiff_test {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/types.h"
-#include "compare/result.h"
+#include "certificate/result.h"
 
 namespace espdiff_test {
 

@@ -5,10 +5,10 @@
 
 #include "compare/compare.h"
 #include "compare/made_side.h"
-#include "compare/options.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
+#include "options/options.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;

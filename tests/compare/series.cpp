@@ -9,10 +9,10 @@
 #include "compare/built_molecule.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
-#include "compare/options.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "io/sha256.h"
+#include "io/files/sha256.h"
+#include "options/options.h"
 #include "support/test_data.h"
 #include "trajectory/series_file.h"
 

@@ -1,11 +1,11 @@
 // settings.cpp: every setting by name: default, accepted values, and refusals.
-#include "compare/settings.h"
+#include "options/settings.h"
 
 #include <doctest/doctest.h>
 
 #include <set>
 
-#include "compare/options.h"
+#include "options/options.h"
 #include "support/test_data.h"
 
 using espdiff::CompareOptions;

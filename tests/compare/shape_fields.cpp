@@ -7,10 +7,10 @@
 #include "base/error.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
-#include "compare/settings.h"
 #include "cuda/surface/back_ends.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
+#include "options/settings.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;

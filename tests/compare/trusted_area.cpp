@@ -1,13 +1,13 @@
 // trusted_area.cpp: reasons by triangle, their sums, verdicts and names, on strips of triangles made by hand.
-#include "compare/trusted_area.h"
+#include "certificate/trusted_area.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "compare/certificate.h"
-#include "compare/residue_rows.h"
-#include "compare/result.h"
+#include "certificate/certificate.h"
+#include "certificate/residue_rows.h"
+#include "certificate/result.h"
 #include "support/nan.h"
 
 using espdiff::CompareResult;

@@ -1,5 +1,5 @@
 // turned_side_chains.cpp: which atoms count as turned, on a lysine and a tyrosine made by hand, and the area they have.
-#include "compare/turned_side_chains.h"
+#include "certificate/turned_side_chains.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/screw.h"
-#include "compare/result.h"
+#include "certificate/result.h"
 
 using espdiff::Molecule;
 using espdiff::Vec3d;

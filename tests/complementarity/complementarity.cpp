@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "compare/options.h"
 #include "complementarity/complementarity_report.h"
 #include "complementarity/weighted_correlation.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
+#include "options/options.h"
 #include "potential/potential_plan.h"
 #include "prepare/load_state.h"
 #include "support/random.h"

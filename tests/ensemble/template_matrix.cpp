@@ -15,7 +15,7 @@
 #include "engine/engine.h"
 #include "ensemble/planted_file.h"
 #include "ensemble/template_values.h"
-#include "io/read_csv.h"
+#include "io/files/read_csv.h"
 #include "matrix/made_variants.h"
 #include "matrix/write_matrix.h"
 #include "statistics/mesh_graph.h"

@@ -3,7 +3,7 @@
 
 #include "base/types.h"
 #include "fuzz_file.h"
-#include "io/structure_file.h"
+#include "io/structures/structure_file.h"
 
 namespace {
 

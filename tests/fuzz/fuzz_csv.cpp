@@ -1,6 +1,6 @@
 // fuzz_csv.cpp: tables: lists of variants, groups, trajectories.
 #include "fuzz_file.h"
-#include "io/read_csv.h"
+#include "io/files/read_csv.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return espdiff_fuzz::read_as_file(espdiff_fuzz::bytes_of(data, size), [](const std::string& path) {

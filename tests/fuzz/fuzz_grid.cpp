@@ -1,7 +1,7 @@
 // fuzz_grid.cpp: maps: DX, cube, VTI, as they are or packed by gzip.
 #include "fuzz_file.h"
-#include "io/read_grid.h"
-#include "io/read_vti.h"
+#include "io/grids/read_grid.h"
+#include "io/grids/read_vti.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return espdiff_fuzz::read_as_file(espdiff_fuzz::bytes_of(data, size), [](const std::string& path) {

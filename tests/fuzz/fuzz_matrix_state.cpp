@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "fuzz_file.h"
-#include "io/sha256.h"
+#include "io/files/sha256.h"
 #include "matrix/matrix_state.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fuzz_file.h"
-#include "io/read_mol2.h"
+#include "io/structures/read_mol2.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return espdiff_fuzz::read_as_file(espdiff_fuzz::bytes_of(data, size), [](const std::string& path) {

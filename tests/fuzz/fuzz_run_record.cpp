@@ -2,7 +2,7 @@
 #include <fstream>
 
 #include "fuzz_file.h"
-#include "io/run_record.h"
+#include "io/structures/run_record.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   // Found by the name of the surface beside it, hence no file in memory.

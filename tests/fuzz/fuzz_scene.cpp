@@ -1,6 +1,6 @@
 // fuzz_scene.cpp: scene files (JSON).
 #include "fuzz_file.h"
-#include "view/scene.h"
+#include "scene/scene.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return espdiff_fuzz::read_as_file(espdiff_fuzz::bytes_of(data, size), [](const std::string& path) {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fuzz_file.h"
-#include "io/sha256.h"
+#include "io/files/sha256.h"
 #include "trajectory/series_file.h"
 
 namespace {

@@ -1,6 +1,6 @@
 // fuzz_structure.cpp: structures: PQR, PDB, mmCIF, each as it is or packed by gzip.
 #include "fuzz_file.h"
-#include "io/structure_file.h"
+#include "io/structures/structure_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return espdiff_fuzz::read_as_file(espdiff_fuzz::bytes_of(data, size), [](const std::string& path) {

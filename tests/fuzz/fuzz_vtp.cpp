@@ -1,6 +1,6 @@
 // fuzz_vtp.cpp: mapped surfaces (VTP), as render and view read them.
 #include "fuzz_file.h"
-#include "io/read_vtp.h"
+#include "io/vtk/read_vtp.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return espdiff_fuzz::read_as_file(espdiff_fuzz::bytes_of(data, size), [](const std::string& path) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/write_vtp.h"
+#include "io/vtk/write_vtp.h"
 #include "planted_ensemble.h"
 #include "trajectory/series_csv.h"
 #include "trajectory/series_file.h"

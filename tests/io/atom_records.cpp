@@ -1,5 +1,5 @@
 // atom_records.cpp: models of PDB and PQR files, and which of the two a file is.
-#include "io/atom_records.h"
+#include "io/structures/atom_records.h"
 
 #include "base/error.h"
 #include "support/test_data.h"

@@ -1,5 +1,5 @@
 // atomic_file.cpp: files appear complete or not at all, and refusals say why and what to do.
-#include "io/atomic_file.h"
+#include "io/files/atomic_file.h"
 
 #include <doctest/doctest.h>
 #include <sys/resource.h>
@@ -11,7 +11,7 @@
 
 #include "../support/test_data.h"
 #include "base/error.h"
-#include "io/sibling_file.h"
+#include "io/files/sibling_file.h"
 
 using namespace espdiff;
 using espdiff_test::message_of;

@@ -1,5 +1,5 @@
 // check_outputs.cpp: an output that is an input, by whatever name, is refused; so are two outputs of one name.
-#include "io/check_outputs.h"
+#include "io/files/check_outputs.h"
 
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // dcd_frames.cpp: the frames of every layout, in any order; files of other molecules, and damaged ones.
-#include "io/dcd_frames.h"
+#include "io/frames/dcd_frames.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // dcd_head.cpp: whole and cut files in every layout, and heads that contradict themselves.
-#include "io/dcd_head.h"
+#include "io/frames/dcd_head.h"
 
 #include "base/error.h"
 #include "io/made_dcd.h"

@@ -1,7 +1,7 @@
 // elements.cpp: radii by element and elements by atom name.
-#include "io/elements.h"
+#include "io/molecules/elements.h"
 #include "base/water.h"
-#include "io/molecule_builder.h"
+#include "io/molecules/molecule_builder.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -1,7 +1,7 @@
 // file_kind.cpp: formats are told by content.
-#include "io/file_kind.h"
+#include "io/files/file_kind.h"
 
-#include "io/read_input.h"
+#include "io/files/read_input.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -1,5 +1,5 @@
 // json_integer.cpp: what is a whole number of a type, and what is not.
-#include "io/json_integer.h"
+#include "io/text/json_integer.h"
 
 #include <doctest/doctest.h>
 

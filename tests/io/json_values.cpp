@@ -1,5 +1,5 @@
 // Values of JSON and CBOR, counted before a parser makes objects of them.
-#include "io/json_values.h"
+#include "io/text/json_values.h"
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "io/molfile_abi.h"
+#include "io/frames/molfile_abi.h"
 
 namespace {
 

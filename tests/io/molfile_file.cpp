@@ -1,5 +1,5 @@
 // molfile_file.cpp: topologies and trajectories through molfile plugins: one made here, and VMD's own where VMD is.
-#include "io/molfile_file.h"
+#include "io/frames/molfile_file.h"
 
 #include <doctest/doctest.h>
 #include <sys/stat.h>
@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "io/open_structure.h"
-#include "io/read_structure.h"
+#include "io/frames/open_structure.h"
+#include "io/structures/read_structure.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

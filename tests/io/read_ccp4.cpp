@@ -1,5 +1,5 @@
 // read_ccp4.cpp: CCP4 and MRC maps: places, orders of axes, byte orders, kinds of values, and what is wrong.
-#include "io/read_ccp4.h"
+#include "io/grids/read_ccp4.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "io/read_grid.h"
+#include "io/grids/read_grid.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;

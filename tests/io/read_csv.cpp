@@ -1,5 +1,5 @@
 // read_csv.cpp: tables as spreadsheets and we write them, and every way in which one is refused.
-#include "io/read_csv.h"
+#include "io/files/read_csv.h"
 
 #include <doctest/doctest.h>
 

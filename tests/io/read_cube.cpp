@@ -1,8 +1,8 @@
 // read_cube.cpp: Gaussian cube maps.
-#include "io/read_cube.h"
+#include "io/grids/read_cube.h"
 
 #include "base/error.h"
-#include "io/read_grid.h"
+#include "io/grids/read_grid.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -1,8 +1,8 @@
 // read_dx.cpp: OpenDX maps, real ones and every way to be broken.
-#include "io/read_dx.h"
+#include "io/grids/read_dx.h"
 
 #include "base/error.h"
-#include "io/read_grid.h"
+#include "io/grids/read_grid.h"
 #include "support/test_data.h"
 #include "support/text.h"
 

@@ -1,5 +1,5 @@
 // read_grid.cpp: map files by content, and files that are no map.
-#include "io/read_grid.h"
+#include "io/grids/read_grid.h"
 
 #include "base/error.h"
 #include "support/test_data.h"

@@ -1,6 +1,6 @@
 // read_input.cpp: whole files, plain and by gzip, from disk and through pipes, with their hash; and what cannot be
 // read.
-#include "io/read_input.h"
+#include "io/files/read_input.h"
 
 #if defined(ESPDIFF_HAVE_ZLIB)
 #include <zlib.h>
@@ -12,9 +12,9 @@
 #include <thread>
 
 #include "base/error.h"
-#include "io/read_grid.h"
-#include "io/sha256.h"
-#include "io/structure_file.h"
+#include "io/files/sha256.h"
+#include "io/grids/read_grid.h"
+#include "io/structures/structure_file.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -1,7 +1,7 @@
 // read_mmcif.cpp: mmCIF files through gemmi.
 #include "base/error.h"
-#include "io/read_structure.h"
 #include "io/structure_text.h"
+#include "io/structures/read_structure.h"
 #include "support/test_data.h"
 
 #ifdef ESPDIFF_HAVE_GEMMI

@@ -1,9 +1,9 @@
 // MOL2 files: the atoms of the first molecule; what is refused, and with which words.
-#include "io/read_mol2.h"
+#include "io/structures/read_mol2.h"
 
 #include <doctest/doctest.h>
 
-#include "io/molecule_builder.h"
+#include "io/molecules/molecule_builder.h"
 #include "support/test_data.h"
 
 using espdiff::Mol2File;

@@ -1,7 +1,7 @@
 // read_pdb.cpp: PDB files through gemmi: alternate locations, short and broken lines, models, elements.
 #include "base/error.h"
-#include "io/read_structure.h"
 #include "io/structure_text.h"
+#include "io/structures/read_structure.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -1,11 +1,11 @@
 // read_pqr.cpp: PQR files, free format and columns, real and broken.
-#include "io/read_pqr.h"
+#include "io/structures/read_pqr.h"
 
 #include <filesystem>
 
 #include "base/error.h"
-#include "io/read_structure.h"
 #include "io/structure_text.h"
+#include "io/structures/read_structure.h"
 #include "support/test_data.h"
 #include "support/text.h"
 

@@ -1,11 +1,11 @@
 // Charges from PSF and prmtop files, as real programs wrote them, cut, and for other coordinates.
-#include "io/read_topology.h"
+#include "io/structures/read_topology.h"
 
 #include <doctest/doctest.h>
 
 #include "base/error.h"
-#include "io/read_structure.h"
 #include "io/structure_text.h"
+#include "io/structures/read_structure.h"
 #include "support/test_data.h"
 #include "support/text.h"
 

@@ -1,11 +1,11 @@
 // read_unit_cells.cpp: CRYST1 records of models, and NAMD's .xsc files.
-#include "io/read_unit_cells.h"
+#include "io/structures/read_unit_cells.h"
 
 #include <cstdio>
 #include <ctime>
 
 #include "base/error.h"
-#include "io/structure_file.h"
+#include "io/structures/structure_file.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -4,9 +4,9 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "io/read_grid.h"
-#include "io/read_vti.h"
-#include "io/read_vtp.h"
+#include "io/grids/read_grid.h"
+#include "io/grids/read_vti.h"
+#include "io/vtk/read_vtp.h"
 #include "support/test_data.h"
 #include "support/text.h"
 

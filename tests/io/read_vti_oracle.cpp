@@ -22,8 +22,8 @@
 
 #include <cmath>
 
-#include "io/read_vti.h"
-#include "io/read_vtp.h"
+#include "io/grids/read_vti.h"
+#include "io/vtk/read_vtp.h"
 
 using namespace espdiff;
 using namespace espdiff_test;

@@ -1,5 +1,5 @@
 // Runs of other programs: their outputs, their end, and that nothing of them stays.
-#include "io/run_program.h"
+#include "io/files/run_program.h"
 
 #include <doctest/doctest.h>
 

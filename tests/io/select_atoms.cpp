@@ -1,12 +1,12 @@
 // Selections in gemmi's syntax, against what they say in words.
-#include "io/select_atoms.h"
+#include "io/molecules/select_atoms.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
 #include "base/error.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

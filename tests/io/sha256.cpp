@@ -1,5 +1,5 @@
 // sha256.cpp: the vectors of FIPS 180-4 (NIST, "SHA-256 examples" and CAVP), and files.
-#include "io/sha256.h"
+#include "io/files/sha256.h"
 
 #include <doctest/doctest.h>
 

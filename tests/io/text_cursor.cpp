@@ -1,5 +1,5 @@
 // text_cursor.cpp: numbers, words and line numbers of text.
-#include "io/text_cursor.h"
+#include "io/text/text_cursor.h"
 
 #include "base/error.h"
 #include "support/test_data.h"

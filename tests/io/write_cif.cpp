@@ -1,5 +1,5 @@
 // write_cif.cpp: values are quoted where CIF asks for it, and a written file is read back.
-#include "io/write_cif.h"
+#include "io/molecules/write_cif.h"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
 #include "support/test_data.h"
 
 using namespace espdiff;       // NOLINT: a test

@@ -1,12 +1,12 @@
 // write_csv.cpp: numbers and quoting.
-#include "io/write_csv.h"
+#include "io/files/write_csv.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <sstream>
 
-#include "io/read_csv.h"
+#include "io/files/read_csv.h"
 
 using namespace espdiff;
 

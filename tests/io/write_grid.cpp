@@ -1,11 +1,11 @@
 // write_grid.cpp: what write_dx writes is OpenDX and reads back bit by bit.
-#include "io/write_grid.h"
+#include "io/grids/write_grid.h"
 
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
-#include "io/read_grid.h"
+#include "io/grids/read_grid.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -1,5 +1,5 @@
 // write_pdb.cpp: columns against the format's own example, numbers that do not fit, and a file that is read back.
-#include "io/write_pdb.h"
+#include "io/molecules/write_pdb.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
 #include "support/test_data.h"
 
 using namespace espdiff;  // NOLINT: a test of one header

@@ -1,12 +1,12 @@
 // write_pqr.cpp: what is written is read back as the same molecule.
-#include "io/write_pqr.h"
+#include "io/molecules/write_pqr.h"
 
 #include <doctest/doctest.h>
 
 #include <fstream>
 #include <sstream>
 
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
 #include "support/test_data.h"
 
 using namespace espdiff;  // NOLINT: a test of one header

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
-#include "io/read_grid.h"
-#include "io/write_grid.h"
+#include "io/files/atomic_file.h"
+#include "io/grids/read_grid.h"
+#include "io/grids/write_grid.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

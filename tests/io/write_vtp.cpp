@@ -1,5 +1,5 @@
 // write_vtp.cpp: what is written is what VTK's reader finds; wrong arrays are refused.
-#include "io/write_vtp.h"
+#include "io/vtk/write_vtp.h"
 
 #include <doctest/doctest.h>
 

@@ -7,13 +7,13 @@
 
 #include "base/error.h"
 #include "compare/compare.h"
-#include "compare/options.h"
 #include "engine/engine.h"
 #include "field/field.h"
 #include "field/given_values.h"
-#include "io/read_csv.h"
+#include "io/files/read_csv.h"
 #include "matrix/made_variants.h"
 #include "matrix/write_matrix.h"
+#include "options/options.h"
 #include "support/test_data.h"
 #include "support/text.h"
 

@@ -5,7 +5,7 @@
 
 #include "compare/made_side.h"
 #include "engine/select_engine.h"
-#include "io/sha256.h"
+#include "io/files/sha256.h"
 #include "matrix/matrix_run.h"
 
 namespace espdiff_test {

@@ -8,8 +8,10 @@
 
 #include "base/error.h"
 #include "cli/run_espdiff.h"
+#include "io/vtk/read_vtp.h"
 #include "page/browser.h"
 #include "page/page_arrays.h"
+#include "page/page_surface.h"
 #include "page/page_texts.h"
 #include "page/report_page.h"
 #include "page/result_page.h"
@@ -41,14 +43,34 @@ struct SmallResult {
 
 TEST_CASE("arrays keep their values to a step of their range, and say what has none") {
   PageArrays arrays;
-  const auto described = arrays.add_numbers({-1, 0.25, std::nan(""), 3});
+  arrays.add_integers({7});
+  const std::vector<double> values = {-1, 10, 0.25, std::nan(""), 3, 9.5};
+  const auto described = arrays.add_numbers(values, PageArrays::kColourSteps, 2);
+  CHECK(described.at("offset") == 4);
   CHECK(described.at("min") == -1);
-  CHECK(described.at("max") == 3);
-  CHECK(described.at("n") == 4);
+  CHECK(described.at("max") == 10);
+  // As the page's decode(): low bytes, high bytes, each the difference from the one before of its kind.
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(arrays.bytes().at(4 + i)); };
+  std::vector<std::uint16_t> steps(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    steps[i] = static_cast<std::uint16_t>((i < 2 ? 0 : steps[i - 2]) + byte(i) + 256 * byte(values.size() + i));
+    const double width = 11.0 / PageArrays::kColourSteps;
+    if (std::isnan(values[i]))
+      CHECK(steps[i] == 65535);
+    else
+      CHECK(-1 + steps[i] * width == doctest::Approx(values[i]).epsilon(width));
+  }
   const auto triangles = arrays.add_triangles({{0, 1, 2}, {2, 1, 3}});
   CHECK(triangles.at("n") == 2);
-  CHECK(triangles.at("offset") == 8);
-  if (!PageArrays::is_deflated()) CHECK(arrays.base64().substr(0, 8) == "AAAAUP//");
+  CHECK(triangles.at("offset") == 16);
+  CHECK(arrays.bytes().size() == 16 + 24);
+}
+
+TEST_CASE("what is too large for a page is refused with the remedy") {
+  CHECK_NOTHROW(require_page_size(kMaxPageTriangles, "out"));
+  CHECK_THROWS_WITH_AS(
+      require_page_size(kMaxPageTriangles + 1, "out"),
+      doctest::Contains("out.vtp: 500001 triangles; a page takes at most 500000: compare with a larger "), InputError);
 }
 
 TEST_CASE("a page holds the numbers, the residues and the verdict of its result, and fetches nothing") {
@@ -116,6 +138,24 @@ TEST_CASE("a result that is not whole, or not a comparison's, is refused with th
   result.folder.write("other.json", "{\"matrix\": 1}");
   CHECK_THROWS_WITH_AS(report_page(result.folder.file("other"), ""),
                        doctest::Contains("not a record that `espdiff compare` wrote; compare again"), FormatError);
+  const std::string record = read_file(result.prefix + ".json");
+  result.folder.write("pair.json",
+                      std::regex_replace(record, std::regex("\"format_version\": 1"), "\"format_version\": 7"));
+  CHECK_THROWS_WITH_AS(report_page(result.prefix, ""),
+                       doctest::Contains("pair.json: version 7 of the format, written by espdiff "), FormatError);
+  CHECK_THROWS_WITH_AS(
+      report_page(result.prefix, ""),
+      doctest::Contains("; this espdiff reads version 1: use that espdiff, or compute the result again"), FormatError);
+  result.folder.write("pair.json", record);
+  const std::string surface = read_file(result.prefix + ".vtp");
+  for (const std::string array : {"source_position", "residue_index"}) {
+    std::string without = surface;
+    without.replace(without.find('"' + array + '"') + 1, array.size(), std::string(array.size(), 'x'));
+    result.folder.write("pair.vtp", without);
+    CHECK_THROWS_WITH_AS(report_page(result.prefix, ""),
+                         doctest::Contains(("has no point array '" + array + "'; compare again").c_str()), FormatError);
+  }
+  result.folder.write("pair.vtp", surface);
   std::filesystem::remove(result.prefix + ".residues.csv");
   CHECK_THROWS_WITH_AS(report_page(result.prefix, ""), doctest::Contains("pair.residues.csv"), IoError);
 }
@@ -140,6 +180,64 @@ TEST_CASE("pages of a study have the widest range of all its results") {
                        doctest::Contains("is for surfaces, and "), InputError);
 }
 
+TEST_CASE("nothing in a file's or a residue's name runs in a browser") {
+  if (!has_three()) return;
+  const SmallResult result("<b>");
+  const std::string hostile = "<img src=x onerror=alert(1)>\"'&lt;</script><svg onload=alert(1)>.pqr";
+  std::string name = hostile;
+  for (char& c : name) c = c == '/' ? '|' : c;  // no file has it in its name
+  std::filesystem::copy(result.folder.file("b.pqr"), result.folder.file(name));
+  REQUIRE(run_espdiff(result.folder.file("a.pqr") + " '" +
+                      std::regex_replace(result.folder.file(name), std::regex("'"), "'\\''") +
+                      "' --potential coulomb -q --overwrite -o " + result.prefix)
+              .status == 0);
+  const auto dom =
+      shown_in_browser(report_page(result.prefix, hostile),
+                       "document.querySelector('#residues tbody tr').click(); const own = "
+                       "document.querySelectorAll('body > script').length; "
+                       "document.documentElement.dataset.seen = [document.querySelectorAll('img, svg, b').length, "
+                       "document.getElementById('title').textContent === " +
+                           std::regex_replace(nlohmann::json(hostile).dump(), std::regex("<"), "\\u003c") +
+                           ", "
+                           "document.getElementById('picked').textContent.includes('<b>')].join('|');",
+                       result.folder);
+  if (!dom) return;
+  CHECK(!contains(*dom, "data-failed"));
+  CHECK_MESSAGE(contains(*dom, "data-seen=\"0|true|true\""), dom->substr(0, 400));
+}
+
+TEST_CASE("a browser has the numbers of the file; a field's target is the sum of its source and the difference") {
+  if (!has_three()) return;
+  const SmallResult result;
+  REQUIRE(run_espdiff(result.folder.file("a.pqr") + " " + result.folder.file("b.pqr") +
+                      " --potential coulomb --field curvature -q --overwrite -o " + result.prefix)
+              .status == 0);
+  const std::string page = report_page(result.prefix, "");
+  const auto record = nlohmann::json::parse(element(page, "record"));
+  const VtpContent surface = read_vtp(result.prefix + ".vtp");
+  nlohmann::json wanted;
+  for (const auto& quantity : record.at("quantities")) {
+    const std::string name = quantity.at("name");
+    CHECK(quantity.contains("sum_of") == (name == "potential_target" || name == "curvature_target"));
+    if (name == "curvature_target") {
+      CHECK(quantity.at("label") == "Mean curvature, target");
+      CHECK(quantity.at("unit") == "1/A");
+    }
+    wanted.push_back(find_array(surface.point_arrays, name)->values);  // NaN becomes null
+  }
+  const auto dom = shown_in_browser(
+      page,
+      "const wanted = " + wanted.dump() +
+          "; const all = Page.decodeAll(Page.record.quantities); let worst = 0; "
+          "wanted.forEach((list, q) => { const size = Math.max(...list.map(Math.abs), 1e-9); list.forEach((x, v) => { "
+          "worst = Math.max(worst, x === null ? (isNaN(all[q][v]) ? 0 : 9) : Math.abs(all[q][v] - x) / size); }); }); "
+          "document.documentElement.dataset.seen = all.length + '|' + (worst < 1e-3 ? 'same' : worst);",
+      result.folder);
+  if (!dom) return;
+  CHECK(!contains(*dom, "data-failed"));
+  CHECK_MESSAGE(contains(*dom, "data-seen=\"" + std::to_string(wanted.size()) + "|same\""), dom->substr(0, 400));
+}
+
 TEST_CASE("a browser draws the surface, and a click on a residue shows it") {
   if (!has_three()) return;
   const SmallResult result;
@@ -156,9 +254,17 @@ TEST_CASE("a browser draws the surface, and a click on a residue shows it") {
       "for (let i = 0; i < pixels.length; ++i) changed += pixels[i] !== after[i]; "
       "document.documentElement.dataset.seen = [drawn > 1000, changed > 1000, "
       "document.querySelectorAll('.label').length, "
-      "document.querySelectorAll('.picked').length, document.getElementById('picked').textContent].join('|');",
+      "document.querySelectorAll('.picked').length, document.getElementById('picked').textContent, "
+      "touched()].join('|'); "
+      // A finger on the middle of the first panel; the controls take the browser's own click from it.
+      "function touched() { document.getElementById('linked').click(); const box = gl.getBoundingClientRect(); "
+      "document.getElementById('picked').textContent = ''; for (const type of ['pointerdown', 'pointerup']) "
+      "gl.dispatchEvent(new PointerEvent(type, {pointerType: 'touch', isPrimary: true, clientX: box.left + box.width / "
+      "2, "
+      "clientY: box.top + box.height / 2})); return document.getElementById('picked').textContent; }",
       result.folder);
   if (!dom) return;
   CHECK(!contains(*dom, "data-failed"));
   CHECK_MESSAGE(contains(*dom, "data-seen=\"true|true|3|1|A:ALA"), dom->substr(0, 400));
+  CHECK_MESSAGE(contains(*dom, " A|A:ALA"), dom->substr(0, 600));
 }

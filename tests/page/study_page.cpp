@@ -77,6 +77,10 @@ TEST_CASE("a study that is damaged or of another version is refused") {
   const SmallStudy study;
   study.folder.write("rows.json", "{\"variants\": [{\"label\": \"x\"}]}");
   CHECK_THROWS_WITH_AS(matrix_page(study.matrix, ""), doctest::Contains("names a variant that "), FormatError);
+  study.folder.write("rows.json", "{\"variants\": [3], \"format_version\": 2}");
+  CHECK_THROWS_WITH_AS(matrix_page(study.matrix, ""),
+                       doctest::Contains("rows.json: version 2 of the format; this espdiff reads version 1: use that "),
+                       FormatError);
   study.folder.write("rows.json", "{\"variants\": [3]}");
   CHECK_THROWS_WITH_AS(matrix_page(study.matrix, ""),
                        doctest::Contains("not a matrix of this version of espdiff; compute it again"), FormatError);

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "base/error.h"
+#include "certificate/result.h"
 #include "compare/compare.h"
-#include "compare/map_recipe.h"
-#include "compare/options.h"
-#include "compare/result.h"
 #include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "engine/select_engine.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
+#include "mapping/map_recipe.h"
+#include "options/options.h"
 #include "potential/computed_map.h"
 #include "support/random.h"
 #include "support/test_data.h"

@@ -1,18 +1,18 @@
 // map_check.cpp: given maps of every kind are told by regression on the potentials of the molecule's charges, and
 // errors planted into them are named.
-#include "compare/map_check.h"
+#include "input_checks/map_check.h"
 
 #include <memory>
 #include <string>
 
 #include "align/superpose.h"
 #include "base/error.h"
-#include "compare/build_surface.h"
 #include "compare/compare.h"
-#include "compare/input.h"
-#include "compare/map_warnings.h"
-#include "compare/options.h"
-#include "io/read_structure.h"
+#include "input_checks/map_warnings.h"
+#include "io/structures/read_structure.h"
+#include "mapping/build_surface.h"
+#include "mapping/input.h"
+#include "options/options.h"
 #include "potential/cpu_engine.h"
 #include "potential/potential_series.h"
 #include "report/potential_json.h"

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "compare/compare.h"
-#include "compare/input.h"
+#include "mapping/input.h"
 #include "potential/computed_map.h"
 #include "potential/cpu_engine.h"
 

@@ -7,7 +7,7 @@
 
 #include "align/residue_names.h"
 #include "base/input_options.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
 #include "prepare/ion_table.h"
 #include "prepare/open_babel.h"
 #include "prepare/pdb2pqr.h"

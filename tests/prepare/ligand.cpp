@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "io/molecule_builder.h"
+#include "io/molecules/molecule_builder.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

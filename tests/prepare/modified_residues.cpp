@@ -8,8 +8,8 @@
 
 #include "align/residue_names.h"
 #include "base/input_options.h"
-#include "io/read_structure.h"
-#include "io/select_atoms.h"
+#include "io/molecules/select_atoms.h"
+#include "io/structures/read_structure.h"
 #include "prepare/open_babel.h"
 #include "prepare/pdb2pqr.h"
 #include "support/test_data.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/earlier_patch.h"
-#include "io/write_vtp.h"
+#include "io/vtk/write_vtp.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -39,6 +39,7 @@ def test_one_version():
         "CHANGELOG.md": "\n## [{}] - ",
         "conda/recipe.yaml": 'version: "{}"',
         "debian/changelog": "espdiff ({}-",
+        "tests/install/CMakeLists.txt": "find_package(espdiff {} REQUIRED)",
     }.items():
         assert text.format(espdiff.__version__) in (REPOSITORY / name).read_text(), name
 

@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "cli/run_espdiff.h"
-#include "io/molecule_builder.h"
-#include "io/read_structure.h"
+#include "io/molecules/molecule_builder.h"
+#include "io/structures/read_structure.h"
 #include "support/limit_memory.h"
 
 using namespace espdiff_test;  // NOLINT: a test

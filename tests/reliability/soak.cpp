@@ -14,14 +14,14 @@
 #include <string>
 #include <vector>
 
+#include "certificate/result.h"
 #include "cli/run_espdiff.h"
 #include "compare/compare.h"
-#include "compare/input.h"
-#include "compare/options.h"
-#include "compare/result.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
+#include "mapping/input.h"
+#include "options/options.h"
 #include "potential/computed_map.h"
 #include "report/provenance.h"
 #include "report/write_compare.h"

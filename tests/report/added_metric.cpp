@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "compare/options.h"
-#include "compare/result.h"
+#include "certificate/result.h"
 #include "matrix/write_matrix.h"
+#include "options/options.h"
 #include "report/metrics.h"
 #include "report/residue_values.h"
 #include "report/write_compare.h"

@@ -1,7 +1,7 @@
 // difference_map.cpp: the map around a surface: constants, linear fields, its band, its edge, a real surface, refusals.
 #include "report/difference_map.h"
-#include "compare/input.h"
-#include "compare/options.h"
+#include "mapping/input.h"
+#include "options/options.h"
 
 #include <doctest/doctest.h>
 
@@ -10,11 +10,11 @@
 #include <limits>
 
 #include "base/error.h"
-#include "compare/surface.h"
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
+#include "mapping/surface.h"
 #include "support/nan.h"
 #include "support/random.h"
 #include "support/test_data.h"

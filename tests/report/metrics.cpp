@@ -9,8 +9,8 @@
 #include <set>
 #include <sstream>
 
-#include "compare/options.h"
-#include "compare/result.h"
+#include "certificate/result.h"
+#include "options/options.h"
 #include "report/provenance.h"
 #include "report/residue_values.h"
 #include "report/write_compare.h"

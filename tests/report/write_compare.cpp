@@ -8,10 +8,10 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "compare/options.h"
-#include "compare/result.h"
-#include "compare/settings.h"
+#include "certificate/result.h"
 #include "engine/deform_stage.h"
+#include "options/options.h"
+#include "options/settings.h"
 #include "report/provenance.h"
 #include "support/nan.h"
 #include "support/test_data.h"

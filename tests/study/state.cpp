@@ -4,8 +4,8 @@
 #include <doctest/doctest.h>
 
 #include "base/error.h"
-#include "compare/options.h"
 #include "matrix/variants.h"
+#include "options/options.h"
 #include "support/test_data.h"
 #include "support/text.h"
 

@@ -5,13 +5,13 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "certificate/result.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
-#include "compare/result.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "io/read_csv.h"
-#include "io/write_grid.h"
+#include "io/files/read_csv.h"
+#include "io/grids/write_grid.h"
 #include "report/field_json.h"
 #include "support/test_data.h"
 #include "support/text.h"

@@ -1,15 +1,15 @@
 // frame_files.cpp: DCD trajectories that were cut off, or have a frame that cannot be, whoever reads them.
-#include "trajectory/frame_files.h"
+#include "frames/frame_files.h"
 
 #include <array>
 #include <limits>
 
 #include "base/error.h"
-#include "io/coordinate_file.h"
+#include "frames/frame_range.h"
 #include "io/made_dcd.h"
-#include "io/structure_file.h"
+#include "io/structures/coordinate_file.h"
+#include "io/structures/structure_file.h"
 #include "support/test_data.h"
-#include "trajectory/frame_range.h"
 
 using namespace espdiff;
 using namespace espdiff_test;  // NOLINT: a test

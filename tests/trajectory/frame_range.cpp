@@ -1,5 +1,5 @@
 // frame_range.cpp: the grammar of frames: VMD's forms, what they mean, and what is refused with which words.
-#include "trajectory/frame_range.h"
+#include "frames/frame_range.h"
 
 #include "base/error.h"
 #include "support/test_data.h"

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "compare/result.h"
-#include "io/read_csv.h"
+#include "certificate/result.h"
+#include "io/files/read_csv.h"
 #include "support/test_data.h"
 #include "trajectory/residue_plot.h"
 

@@ -9,12 +9,12 @@
 #include "compare/made_side.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "io/read_csv.h"
+#include "frames/frame_files.h"
+#include "io/files/read_csv.h"
 #include "prepare/load_state.h"
 #include "prepare/take_charges.h"
 #include "support/test_data.h"
 #include "support/text.h"
-#include "trajectory/frame_files.h"
 #include "trajectory/made_series_head.h"
 
 using namespace espdiff_test;

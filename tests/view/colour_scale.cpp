@@ -1,5 +1,5 @@
 // colour_scale.cpp: ranges, round numbers, opacity, and array names.
-#include "view/colour_scale.h"
+#include "scene/colour_scale.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // comparison.cpp: reading a comparison's files for pictures, also with some missing.
-#include "view/comparison_files.h"
+#include "scene/comparison_files.h"
 
 #include <doctest/doctest.h>
 #include <vtkCamera.h>

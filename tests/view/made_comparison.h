@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/run_espdiff.h"
-#include "io/write_grid.h"
+#include "io/grids/write_grid.h"
 
 namespace espdiff_test {
 

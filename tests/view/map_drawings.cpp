@@ -8,8 +8,8 @@
 
 #include <cmath>
 
+#include "scene/map_sampling.h"
 #include "view/made_comparison.h"
-#include "view/map_sampling.h"
 
 using namespace espdiff;  // NOLINT: a test of these headers
 

@@ -11,12 +11,12 @@
 #include <map>
 #include <set>
 
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
+#include "scene/secondary_structure.h"
 #include "support/test_data.h"
 #include "view/cartoon.h"
 #include "view/molecule_actors.h"
 #include "view/residue_labels.h"
-#include "view/secondary_structure.h"
 
 using namespace espdiff;  // NOLINT: a test of these headers
 

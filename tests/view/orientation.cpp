@@ -1,5 +1,5 @@
 // orientation.cpp: the automatic viewing direction.
-#include "view/orientation.h"
+#include "scene/orientation.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // scene.cpp: scene files: writing and reading, and refusals with their messages.
-#include "view/scene.h"
+#include "scene/scene.h"
 
 #include <doctest/doctest.h>
 

@@ -17,10 +17,10 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "view/comparison_files.h"
+#include "scene/comparison_files.h"
+#include "scene/map_sampling.h"
 #include "view/display_here.h"
 #include "view/made_comparison.h"
-#include "view/map_sampling.h"
 #include "view/render_window.h"
 #include "view/shader_text.h"
 #include "view/surface_geometry.h"

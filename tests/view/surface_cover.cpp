@@ -1,5 +1,5 @@
 // surface_cover.cpp: what pictures draw where a mapping left the surface unmatched.
-#include "view/surface_cover.h"
+#include "scene/surface_cover.h"
 
 #include <doctest/doctest.h>
 

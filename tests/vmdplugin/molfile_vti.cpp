@@ -1,6 +1,6 @@
 // molfile_vti.cpp: VTI files as VMD reads them: every scalar array, turned axes, a real file, damaged files.
 #include "fake_vmd.h"
-#include "io/read_grid.h"
+#include "io/grids/read_grid.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

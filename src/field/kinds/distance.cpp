@@ -5,7 +5,7 @@
 
 #include "engine/engine.h"
 #include "field/field.h"
-#include "io/select_atoms.h"
+#include "io/molecules/select_atoms.h"
 
 namespace espdiff {
 namespace {

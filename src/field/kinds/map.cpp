@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "field/field_files.h"
-#include "io/read_grid.h"
+#include "io/grids/read_grid.h"
 
 namespace espdiff {
 

@@ -9,7 +9,7 @@
 
 #include "base/types.h"
 #include "engine/poisson_boltzmann.h"
-#include "io/read_grid.h"
+#include "io/grids/read_grid.h"
 #include "support/test_data.h"
 
 namespace espdiff_test {

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "cuda/potential/poisson_boltzmann_inputs.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;

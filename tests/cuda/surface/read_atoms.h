@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cuda/surface/shapes.h"
-#include "io/read_structure.h"
+#include "io/structures/read_structure.h"
 
 namespace espdiff_test {
 

@@ -1,0 +1,35 @@
+// slip.h: the slip of a mapping over its area.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "certificate/result.h"
+
+namespace espdiff {
+
+/// [vertex] a third of the area of each matched triangle at the vertex.
+std::vector<double> matched_areas(const MappedSurface& surface);
+
+/// The fraction of the area at vertices without a potential on either side.
+/// @param areas from matched_areas()
+double share_outside(const MappedSurface& surface, const std::vector<double>& areas);
+
+/// @param areas from matched_areas()
+SlipSummary summarize_slip(const MappedSurface& surface, const std::vector<double>& areas);
+
+/// A mapping that slips by more is tried again by local motions: limits of the area beyond kLargeSlip_A. Easy pairs
+/// (below 2 A RMSD) have at most 6 %; pairs whose differences by residue do not agree with the residues' own potentials
+/// have 10 % and more. Local motions leave less slip: of ten such pairs of ubiquitin, those whose differences do not
+/// agree have 5 % and more.
+constexpr double kMostSlippedArea = 0.08, kMostSlippedAreaOfLocalMotions = 0.04;
+
+/// Which limits of the slip a mapping exceeds, so that it is tried again (choose_motions.h): over the whole area (the
+/// limit depends on CompareResult::domains_used), in a chain or rigid domain, at a ligand. Each names where.
+/// @param result with its residues' rows
+std::vector<Message> slip_reasons(const CompareResult& result, const Molecule& source);
+
+/// The residues that slipped by more than kLargeSlip_A on average, farthest first: "ARG 247 of chain B (8.5 A)".
+std::vector<std::string> slipped_residues(const CompareResult& result, const Molecule& source);
+
+}  // namespace espdiff

@@ -1,0 +1,104 @@
+// untrusted_parts.cpp: names the parts of a surface that are not trusted, by runs of residues.
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "align/chain_links.h"
+#include "base/residue_label.h"
+#include "base/short_numbers.h"
+#include "certificate/result.h"
+#include "certificate/trusted_area.h"
+
+namespace espdiff {
+namespace {
+
+constexpr double kLeastNamedArea_A2 = 10;
+constexpr std::size_t kMostNamedParts = 6;
+/// So many trusted residues between two that are not belong to the same part.
+constexpr std::size_t kMostBetween = 1;
+
+/// [residue] its area on the source by Why.
+using AreaByWhy = std::array<double, kNumberOfWhys>;
+
+double untrusted(const AreaByWhy& area) { return std::accumulate(area.begin() + 1, area.end(), 0.0); }
+
+const char* in_words(std::size_t why) {
+  switch (static_cast<Why>(why)) {
+    case Why::kUnmatched: return "unmatched";
+    case Why::kCorrupt: return "not on the target's surface";
+    case Why::kUnpaired: return "without a partner";
+    case Why::kSlipped: return "slipped off its atoms";
+    case Why::kOtherResidue: return "on another residue";
+    case Why::kDisagrees: return "its difference is not that of its own surfaces";
+    case Why::kNoPotential: return "without a potential";
+    case Why::kTrusted: break;
+  }
+  return "trusted";
+}
+
+struct UntrustedPart {
+  std::size_t first = 0, last = 0;
+  AreaByWhy area{};
+};
+
+std::vector<AreaByWhy> areas_by_residue(const MappedSurface& s, std::size_t n_residues) {
+  std::vector<AreaByWhy> areas(n_residues, AreaByWhy{});
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    const Triangle& v = s.triangles[t];
+    const auto& p = s.source_positions;
+    const double third = norm(cross(p[v[1]] - p[v[0]], p[v[2]] - p[v[0]])) / 6;
+    for (const std::uint32_t c : v) {
+      if (s.residue[c] >= 0) areas[static_cast<std::size_t>(s.residue[c])][s.why[t]] += third;
+    }
+  }
+  return areas;
+}
+
+/// Runs of residues of one chain whose surface is not trusted by more than half. A ligand is no part of a run.
+std::vector<UntrustedPart> runs_of(const std::vector<AreaByWhy>& areas, const std::vector<ResidueRow>& rows,
+                                   const Molecule& source) {
+  const ResidueView view(source);
+  std::vector<UntrustedPart> parts;
+  for (const ResidueRow& row : rows) {
+    const AreaByWhy& area = areas[row.residue];
+    if (!(untrusted(area) > area[0])) continue;
+    const bool goes_on = !parts.empty() && row.residue - parts.back().last <= kMostBetween + 1 &&
+                         source.residues[parts.back().last].chain == source.residues[row.residue].chain &&
+                         trace_atom(view, parts.back().last) >= 0 && trace_atom(view, row.residue) >= 0;
+    if (!goes_on) parts.push_back({row.residue, row.residue, {}});
+    parts.back().last = row.residue;
+    for (std::size_t k = 0; k < area.size(); ++k) parts.back().area[k] += area[k];
+  }
+  return parts;
+}
+
+std::string named(const UntrustedPart& part, const Molecule& source) {
+  std::string name = residue_label(source.residues[part.last]);
+  if (part.first != part.last) {
+    Residue first = source.residues[part.first];
+    first.chain.clear();
+    name = residue_label(first) + " to " + name;
+  }
+  const auto most = std::max_element(part.area.begin() + 1, part.area.end()) - part.area.begin();
+  return name + " (" + short_number(untrusted(part.area)) + " A^2): " + in_words(static_cast<std::size_t>(most));
+}
+
+}  // namespace
+
+std::vector<std::string> untrusted_parts(const MappedSurface& surface, const std::vector<ResidueRow>& rows,
+                                         const Molecule& source) {
+  std::vector<UntrustedPart> parts = runs_of(areas_by_residue(surface, source.residues.size()), rows, source);
+  parts.erase(std::remove_if(parts.begin(), parts.end(),
+                             [](const UntrustedPart& part) { return untrusted(part.area) < kLeastNamedArea_A2; }),
+              parts.end());
+  std::stable_sort(parts.begin(), parts.end(), [](const UntrustedPart& a, const UntrustedPart& b) {
+    return untrusted(a.area) > untrusted(b.area);
+  });
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < std::min(parts.size(), kMostNamedParts); ++k) names.push_back(named(parts[k], source));
+  if (parts.size() > kMostNamedParts)
+    names.push_back("and " + std::to_string(parts.size() - kMostNamedParts) + " smaller parts");
+  return names;
+}
+
+}  // namespace espdiff

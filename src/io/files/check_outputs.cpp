@@ -1,0 +1,61 @@
+// check_outputs.cpp: compares files by device and inode, and names by their folders.
+#include "io/files/check_outputs.h"
+
+#include <filesystem>
+#include <map>
+
+#include "base/error.h"
+#include "io/files/sibling_file.h"
+#include "system/permissions.h"
+
+namespace espdiff {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder's real path and the name in it; of a link that points nowhere, that of what it would be.
+fs::path place_of(const std::string& path) {
+  const fs::path target = followed_links(path);
+  std::error_code error;
+  const fs::path folder = fs::canonical(target.has_parent_path() ? target.parent_path() : fs::path("."), error);
+  return (error ? target.parent_path() : folder) / target.filename();
+}
+
+/// Equal for all names of one file. Devices such as /dev/null are written by none of our writers, and read by many.
+std::string identity_of(const std::string& path) {
+  const std::string identity = file_identity(path);
+  return identity.empty() ? place_of(path).string() : "file " + identity;
+}
+
+std::string both_names(const std::string& a, const std::string& b) {
+  return a == b ? "'" + a + "'" : "'" + a + "' and '" + b + "', which are one file";
+}
+
+}  // namespace
+
+void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs, bool overwrite) {
+  std::map<std::string, const std::string*> read, written;
+  for (const std::string& input : inputs) {
+    if (!input.empty()) read.emplace(identity_of(input), &input);
+  }
+  for (const std::string& output : outputs) {
+    if (output.empty()) continue;
+    const std::string identity = identity_of(output);
+    if (const auto input = read.find(identity); input != read.end())
+      throw InputError("an output would replace an input: " + both_names(output, *input->second) +
+                       "; choose another name for the output");
+    if (const auto [other, is_new] = written.emplace(identity, &output); !is_new)
+      throw InputError("two outputs would have one name: " + both_names(*other->second, output) +
+                       "; choose another for one of them");
+  }
+  for (const std::string& output : outputs) {
+    std::error_code ignored;
+    if (!overwrite && !output.empty() && fs::is_regular_file(output, ignored))
+      throw InputError(Message(output + " exists; " + switched_on("overwrite") + " replaces it, another " +
+                               option("output") + " keeps it")
+                           .set_next({"", {{"overwrite", "", true}}}));
+  }
+  remove_leftovers(outputs);
+}
+
+}  // namespace espdiff

@@ -1,0 +1,107 @@
+// open_structure.cpp: which reader opens a file: ours for structures, VMD's for everything else, ours for PSF and DCD
+// without VMD.
+#include "io/frames/open_structure.h"
+
+#include <utility>
+
+#include "base/error.h"
+#include "io/files/sha256.h"
+#include "io/frames/dcd_frames.h"
+#include "io/frames/frame_reader.h"
+#include "io/frames/molfile_file.h"
+#include "io/frames/molfile_plugins.h"
+#include "io/structures/read_topology.h"
+#include "io/text/text_cursor.h"
+
+namespace espdiff {
+namespace {
+
+FrameReader& the_frame_reader() {
+  static FrameReader reader;
+  return reader;
+}
+
+bool is_psf_name(const std::string& path) {
+  const std::string ending = ".psf";
+  return path.size() > ending.size() && lower_case(path.substr(path.size() - ending.size())) == ending;
+}
+
+/// How to do without VMD: in Python as it is there, or by another front end.
+std::string without_plugins(const std::string& path) {
+  if (!frame_reader_remedy().empty()) return frame_reader_remedy();
+  return "; without VMD, Python's espdiff reads it by MDAnalysis (in its repository: pip install '.[mda]'), and " +
+         std::string(is_dcd_name(path) ? "DCD needs its atoms from a PSF, PDB or PQR"
+                                       : "DCD and PSF are read without either");
+}
+
+}  // namespace
+
+const FrameReader* frame_reader() { return the_frame_reader().open ? &the_frame_reader() : nullptr; }
+const std::string& frame_reader_remedy() { return the_frame_reader().remedy; }
+void set_frame_reader(FrameReader reader) { the_frame_reader() = std::move(reader); }
+
+std::unique_ptr<StructureFile> open_structure(const std::string& path) { return std::make_unique<StructureFile>(path); }
+
+TrajectoryOpener::TrajectoryOpener(std::string topology, std::string plugins, const Progress& progress)
+    : topology_(std::move(topology)),
+      plugins_(std::move(plugins)),
+      progress_(progress),
+      needs_coordinates_(needs_molfile_reader(topology_)) {}
+
+/// The surrounding program's reader, where VMD's are neither named nor found, or do not read such a file.
+const FrameReader* TrajectoryOpener::other_reader_of(const std::string& path) {
+  plugins_ = find_molfile_folder(plugins_);
+  return plugins_.empty() || find_molfile_reader(plugins_, path) == nullptr ? frame_reader() : nullptr;
+}
+
+const MolfileReader& TrajectoryOpener::reader_of(const std::string& path) {
+  plugins_ = find_molfile_folder(plugins_);
+  if (plugins_.empty())
+    throw DeviceError((path + ": is read by VMD's molfile plugins, and none were found; " + kMolfileRemedy + " as " +
+                       option("plugins") + without_plugins(path))
+                          .set_next({frame_reader_remedy().empty() ? "python3 -m " : "", {}}));
+  const MolfileReader* const reader = find_molfile_reader(plugins_, path);
+  if (reader == nullptr)
+    throw InputError(Message(path + ": no plugin of VMD in " + plugins_ +
+                             " reads files with this ending; Python's espdiff reads it by MDAnalysis (in its "
+                             "repository: pip install '.[mda]')")
+                         .set_next({frame_reader_remedy().empty() ? "python3 -m " : "", {}}));
+  return *reader;
+}
+
+std::shared_ptr<const Molecule> TrajectoryOpener::atoms() {
+  if (atoms_ != nullptr) return atoms_;
+  Molecule all;
+  if (!needs_coordinates_) {
+    const StructureFile file(topology_);
+    all = file.read({1, true, true, {}});
+    sha256_ = file.sha256();
+  } else {
+    const FrameReader* const other = other_reader_of(topology_);
+    all = other != nullptr                             ? other->read_atoms(topology_)
+          : plugins_.empty() && is_psf_name(topology_) ? read_psf_atoms(topology_)
+                                                       : read_molfile_atoms(topology_, reader_of(topology_));
+    sha256_ = sha256_of_file(topology_);
+    // As for a topology beside a structure: a prmtop's radii come with its charges.
+    if (is_topology(topology_)) take_topology(all, read_topology(topology_));
+  }
+  atoms_ = std::make_shared<const Molecule>(std::move(all));
+  return atoms_;
+}
+
+std::unique_ptr<StructureFile> TrajectoryOpener::open(const std::string& path) {
+  if (!needs_molfile_reader(path)) return open_structure(path);
+  if (const FrameReader* const other = other_reader_of(path); other != nullptr) {
+    const std::shared_ptr<const Molecule> all = atoms();
+    return std::make_unique<StructureFile>(other->open(path, all->size()), all);
+  }
+  if (plugins_.empty() && is_dcd_name(path)) {
+    const std::shared_ptr<const Molecule> all = atoms();
+    return std::make_unique<StructureFile>(std::make_unique<DcdFrames>(path, all->size()), all);
+  }
+  const MolfileReader& reader = reader_of(path);
+  const std::shared_ptr<const Molecule> all = atoms();
+  return std::make_unique<StructureFile>(std::make_unique<MolfileFrames>(path, reader, all->size(), progress_), all);
+}
+
+}  // namespace espdiff

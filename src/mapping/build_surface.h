@@ -1,0 +1,51 @@
+// build_surface.h: builds a molecule's surface in the common frame, for every command that needs one.
+#pragma once
+
+#include <vector>
+
+#include "base/handles.h"
+#include "base/progress.h"
+#include "base/types.h"
+#include "engine/surface_stage.h"
+#include "mapping/stage_clock.h"
+#include "mapping/surface_summary.h"
+
+namespace espdiff {
+
+struct CompareOptions;
+struct DeformReport;
+struct SurfaceOptions;
+
+/// Largest projection of a vertex onto the analytic surface, in grid spacings; linear interpolation errs by less than a
+/// tenth.
+constexpr double kProjectionShare = 0.5;
+
+/// One molecule's surface in the common frame.
+struct Surface {
+  AtomsPtr atoms;
+  double radius_scale = 1;
+  GridPtr density;
+  MeshPtr mesh;                              // without closed cavities, unless the options keep them
+  MeshPtr whole;                             // with closed cavities
+  std::vector<ComponentSummary> components;  // all
+  SurfaceSummary summary;
+};
+
+/// Density, surface, components, projection; adds their times to the clock.
+/// @param to_common the molecule's own frame -> the common frame
+/// @throws InputError (options, radii), GeometryError (no surface), MemoryError, Cancelled
+Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTransform& to_common,
+                      const SurfaceOptions& options, const Progress& progress, StageClock& clock);
+
+/// [vertex] the label of the atom with the largest density at the vertex.
+/// @param labels [atom] of the molecule, from 0  @param mesh in the common frame
+std::vector<std::int32_t> vertex_labels(Engine& engine, const Surface& surface, const MeshPtr& mesh,
+                                        const Molecule& molecule, const RigidTransform& to_common,
+                                        const std::vector<std::int32_t>& labels);
+
+/// The surface after regularization on its own density (thesis section 3.5.5).
+/// @param mesh the surface's `mesh` or `whole`
+MeshPtr regularize(Engine& engine, const Surface& surface, const MeshPtr& mesh, const CompareOptions& options,
+                   const Progress& progress, DeformReport* report);
+
+}  // namespace espdiff

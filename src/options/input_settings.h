@@ -1,0 +1,44 @@
+// input_settings.h: the settings of a comparison's input: selections, charges, region.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace espdiff {
+
+struct CompareOptions;
+struct InputOptions;
+struct PatchRequest;
+struct Setting;
+
+/// Appends their rows to the table of settings.
+void add_input_settings(std::vector<Setting>& all);
+
+/// Those of the causes of a difference.
+void add_cause_settings(std::vector<Setting>& all);
+
+/// @throws InputError "--NAME: 'TEXT' is not ACCEPTED"
+[[noreturn]] void refuse_value(const std::string& name, const std::string& text, const std::string& accepted);
+
+/// The row, marked as one that the surface depends on.
+Setting of_surface(Setting row);
+
+/// Reads "NAME=SELECTION|NAME=SELECTION".
+/// @throws InputError (form, name)
+std::vector<PatchRequest> parse_patches(const std::string& text);
+
+/// The parts of a source that results are given for, by the settings: the region, then patches.
+std::vector<std::string> part_names(const InputOptions& options);
+/// The same of settings as a file has them, by name. @throws as parse_patches()
+std::vector<std::string> part_names(const std::vector<std::pair<std::string, std::string>>& settings);
+
+/// @param text the reading as it was given. @throws InputError if no patch of that name is asked for
+void require_patch(const CompareOptions& options, const std::string& text, const std::string& name);
+/// @throws InputError for causes of a region or patch that is not asked for
+void check_readings(const CompareOptions& options);
+
+/// @throws InputError for settings that exclude or need each other
+void check_input_options(const InputOptions& options);
+
+}  // namespace espdiff

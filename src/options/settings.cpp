@@ -1,0 +1,481 @@
+// settings.cpp: the table of a comparison's settings.
+#include "options/settings.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <locale>
+#include <sstream>
+
+#include "align/pair_atoms.h"
+#include "align/rigid_domains.h"
+#include "base/error.h"
+#include "field/field_kinds.h"
+#include "field/field_patches.h"
+#include "options/input_settings.h"
+#include "options/options.h"
+
+namespace espdiff {
+namespace {
+
+/// Reads a number in the C locale, whatever locale the host program has set.
+template <typename Number>
+bool parse(const std::string& text, Number& value) {
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  return static_cast<bool>(in >> value) && (in >> std::ws).eof();
+}
+
+/// The shortest text that reads back as the same value.
+std::string written(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general).ptr};
+}
+std::string written(int value) { return std::to_string(value); }
+
+/// The range of numbers that a setting accepts.
+struct Range {
+  double low;
+  bool low_included;
+  const char* words;
+  double high = HUGE_VAL;  ///< included
+};
+constexpr Range kPositive{0, false, "a positive number"}, kNotNegative{0, true, "a number of 0 or more"},
+    kShare{0, true, "a number from 0 to 1", 1}, kCount{0, true, "a whole number of 0 or more"};
+
+bool within(const Range& range, double value) {
+  return std::isfinite(value) && (range.low_included ? value >= range.low : value > range.low) && value <= range.high;
+}
+
+/// Headings of settings that only one method reads.
+constexpr const char* kMorphGroup = "Mapping by morph";
+constexpr const char* kDeformGroup = "Mapping by deform";
+
+/// A numeric setting; `at` finds it in the options.
+template <typename At>
+Setting number(const std::string& name, const std::string& group, Range range, At at, const std::string& help) {
+  Setting s{name, group, SettingKind::kNumber, {}, help, false, nullptr, nullptr};
+  s.set = [name, range, at](CompareOptions& o, const std::string& text) {
+    double value = 0;
+    if (!parse(text, value) || !within(range, value)) refuse_value(name, text, range.words);
+    at(o) = value;
+  };
+  s.get = [at](const CompareOptions& o) { return written(at(o)); };
+  return s;
+}
+
+template <typename At>
+Setting count(const std::string& name, const std::string& group, At at, const std::string& help) {
+  Setting s{name, group, SettingKind::kInteger, {}, help, false, nullptr, nullptr};
+  s.set = [name, at](CompareOptions& o, const std::string& text) {
+    int value = 0;
+    if (!parse(text, value) || value < 0) refuse_value(name, text, kCount.words);
+    at(o) = value;
+  };
+  s.get = [at](const CompareOptions& o) { return written(at(o)); };
+  return s;
+}
+
+template <typename At>
+Setting boolean(const std::string& name, const std::string& group, At at, const std::string& help) {
+  Setting s{name, group, SettingKind::kBoolean, {}, help, false, nullptr, nullptr};
+  s.set = [name, at](CompareOptions& o, const std::string& text) {
+    if (text != "0" && text != "1") refuse_value(name, text, "0 or 1");
+    at(o) = text == "1";
+  };
+  s.get = [at](const CompareOptions& o) { return at(o) ? "1" : "0"; };
+  return s;
+}
+
+/// A setting with named values.
+template <typename Set, typename Get>
+Setting choice(const std::string& name, const std::string& group, std::vector<std::string> choices, Set set, Get get,
+               const std::string& help) {
+  std::string list;
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + choices[i];
+  Setting s{name, group, SettingKind::kChoice, choices, help, false, nullptr, get};
+  s.set = [=](CompareOptions& o, const std::string& text) {
+    if (std::find(choices.begin(), choices.end(), text) == choices.end()) refuse_value(name, text, list);
+    set(o, text);
+  };
+  return s;
+}
+
+void add_surface_settings(std::vector<Setting>& all) {
+  const std::string group = "Surface";
+  all.push_back(of_surface(number(
+      "grid-spacing", group, kPositive, [](auto& o) -> auto& { return o.surface.grid_spacing_A; },
+      "Lattice spacing of the density, Angstrom")));
+  all.push_back(of_surface(number(
+      "radius-scale", group, kPositive, [](auto& o) -> auto& { return o.surface.radius_scale; },
+      "Width of each atom's Gaussian in units of its radius")));
+  all.push_back(of_surface(number(
+      "isovalue", group, kPositive, [](auto& o) -> auto& { return o.surface.isovalue; },
+      "Density at which the surface lies; higher is tighter")));
+  all.push_back(of_surface(boolean(
+      "cavities", group, [](auto& o) -> auto& { return o.surface.cavities; },
+      "Keep closed cavities; they are removed and counted by default")));
+  all.push_back(of_surface(boolean(
+      "project", group, [](auto& o) -> auto& { return o.surface.project; },
+      "Project vertices onto the exact isosurface")));
+}
+
+/// `prefix` is "" for the mapping and "regularize-" for the regularization.
+template <typename Iteration, typename Displacement>
+void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix, const std::string& group,
+                            Iteration iteration, Displacement min_displacement) {
+  const auto add = [&](const char* name, Range range, double DeformOptions::*member, const char* help) {
+    all.push_back(number(
+        prefix + name, group, range, [ iteration, member ](auto& o) -> auto& { return iteration(o).*member; }, help));
+  };
+  add("sigma", kPositive, &DeformOptions::sigma, "Step scale");
+  add("mu", kShare, &DeformOptions::mu, "Weight of the external force against the internal one, 0 to 1");
+  add("rho", kShare, &DeformOptions::rho, "Weight of rigidity against tension, 0 to 1");
+  add("tangential-gain", kNotNegative, &DeformOptions::tangential_gain,
+      "Multiplies the internal force, which moves vertices along the surface");
+  all.push_back(count(
+      prefix + "max-iterations", group, [iteration](auto& o) -> auto& { return iteration(o).max_iterations; },
+      "Maximum number of iterations"));
+  all.push_back(number(prefix + "min-displacement", group, kNotNegative, min_displacement,
+                       "Converged when the mean displacement of an iteration falls below this many grid spacings"));
+}
+
+void add_morph_settings(std::vector<Setting>& all) {
+  all.push_back(number(
+      "max-step", kMorphGroup, Range{0.001, true, "a number of 0.001 or more"},
+      [](auto& o) -> auto& { return o.morph.max_step_A; }, "Maximum movement of an atom per step, Angstrom"));
+  all.push_back(number(
+      "max-edge", kMorphGroup, kPositive, [](auto& o) -> auto& { return o.morph_max_edge; },
+      "Split edges longer than this many grid spacings"));
+  all.push_back(number(
+      "max-stretch", kMorphGroup, Range{1, false, "a number above 1"},
+      [](auto& o) -> auto& { return o.morph.max_stretch; }, "Stretch of an edge at which the surface counts as torn"));
+}
+
+void add_mapping_settings(std::vector<Setting>& all) {
+  const std::string group = "Mapping";
+  all.push_back(choice(
+      "method", group, {"morph", "deform"},
+      [](CompareOptions& o, const std::string& text) { o.method = parse_method(text); },
+      [](const CompareOptions& o) { return to_string(o.method); },
+      "Mapping method: follow the moving atoms (morph), or forces in a field (deform)"));
+  all.push_back(boolean(
+      "round-trip", group, [](auto& o) -> auto& { return o.round_trip; },
+      "Also map back and report the round-trip error; doubles the time"));
+  add_morph_settings(all);
+  all.push_back(choice(
+      "deform-field", kDeformGroup, {"density", "distance", "gvf", "gvf2"},
+      [](CompareOptions& o, const std::string& text) { o.field = parse_deform_field(text); },
+      [](const CompareOptions& o) { return to_string(o.field); },
+      "Field that moves the surface: density, distance (far from the target), or gradient vector flow of the target "
+      "(gvf) or of both surfaces (gvf2)"));
+  all.back().file_key = "field";
+  all.push_back(number(
+      "distance-threshold", kDeformGroup, kNotNegative, [](auto& o) -> auto& { return o.distance_threshold_A; },
+      "Distance beyond which the distance field is used, Angstrom"));
+  all.push_back(number(
+      "gvf-weight", kDeformGroup, kPositive, [](auto& o) -> auto& { return o.flow.weight_A2; },
+      "Weight of smoothness in the gradient vector flow (mu), Angstrom^2"));
+  all.push_back(number(
+      "gvf-tolerance", kDeformGroup, kPositive, [](auto& o) -> auto& { return o.flow.tolerance; },
+      "Converged when a sweep changes no vector by more than this; vectors at the surface have length 1"));
+  all.push_back(count(
+      "gvf-max-sweeps", kDeformGroup, [](auto& o) -> auto& { return o.flow.max_sweeps; },
+      "Maximum number of sweeps; 1 or more"));
+  all.push_back(choice(
+      "interpolation", kDeformGroup, {"trilinear", "tricubic"},
+      [](CompareOptions& o, const std::string& text) {
+        o.deform.interpolation = o.regularize.interpolation = parse_interpolation(text);
+      },
+      [](const CompareOptions& o) {
+        return o.deform.interpolation == Interpolation::kTricubic ? "tricubic" : "trilinear";
+      },
+      "Interpolation of the field"));
+  all.push_back(choice(
+      "rest-shape", kDeformGroup, {"source", "none"},
+      [](CompareOptions& o, const std::string& text) { o.deform.rest_shape = text == "source"; },
+      [](const CompareOptions& o) { return o.deform.rest_shape ? "source" : "none"; },
+      "Shape that the internal force restores: the source's, or none (equal edges)"));
+  all.push_back(boolean(
+      "subdivide", kDeformGroup, [](auto& o) -> auto& { return o.subdivide; },
+      "Split stretched edges and iterate again, which reaches into crevices"));
+  add_iteration_settings(
+      all, "", kDeformGroup, [](auto& o) -> auto& { return o.deform; },
+      [](auto& o) -> auto& { return o.deform_min_displacement; });
+  Setting thesis{kThesisSetting,
+                 kDeformGroup,
+                 SettingKind::kBoolean,
+                 {},
+                 "The thesis' original iteration: tangential gains 1, rest shape none, smallest displacements 0.001, "
+                 "cavities, no projection. Other settings given still apply",
+                 true,
+                 nullptr,
+                 nullptr};
+  thesis.set = [](CompareOptions&, const std::string& text) {
+    if (text != "0" && text != "1") refuse_value(kThesisSetting, text, "0 or 1");
+  };
+  thesis.get = [](const CompareOptions&) { return "0"; };
+  all.push_back(thesis);
+}
+
+/// Distances of 0 to 20 A, each once: "0" or "0,1.4,3".
+std::vector<double> parse_offsets(const std::string& name, const std::string& text) {
+  constexpr double kMost_A = 20;
+  const std::string accepted = "a distance of 0 to 20 Angstrom, or a list of some such as 0,1.4,3";
+  std::vector<double> offsets;
+  std::istringstream list(text);
+  for (std::string part; std::getline(list, part, ',');) {
+    double value = 0;
+    if (!parse(part, value) || !std::isfinite(value) || value < 0 || value > kMost_A)
+      refuse_value(name, text, accepted);
+    if (std::find(offsets.begin(), offsets.end(), value) != offsets.end())
+      refuse_value(name, text, accepted + ", each once");
+    offsets.push_back(value);
+  }
+  if (offsets.empty() || text.back() == ',') refuse_value(name, text, accepted);
+  return offsets;
+}
+
+Setting offset_setting() {
+  Setting offset{
+      "offset",
+      "Potentials",
+      SettingKind::kText,
+      {},
+      "Distance outside both surfaces, along their normals, at which the potentials are read, Angstrom; a list "
+      "such as 0,1.4,3 gives the metrics at each, and vertices and residues have the first",
+      false,
+      nullptr,
+      nullptr};
+  offset.set = [](CompareOptions& o, const std::string& text) { o.offsets_A = parse_offsets("offset", text); };
+  offset.get = [](const CompareOptions& o) {
+    std::string text;
+    for (const double value : o.offsets_A) text += (text.empty() ? "" : ",") + written(value);
+    return text;
+  };
+  return offset;
+}
+
+/// A list of named fields; setting it again adds to it.
+Setting field_setting() {
+  Setting row{
+      "field",
+      "Fields",
+      SettingKind::kText,
+      {},
+      "Compare another quantity of the surfaces, too, such as hydrophobicity or b-factor: NAME, or NAME=KIND and "
+      "NAME=KIND:ARGUMENT under a name of one's own; `fields` lists the kinds. Several may be given",
+      false,
+      nullptr,
+      nullptr};
+  row.set = [](CompareOptions& o, const std::string& text) {
+    if (text.empty()) return;  // the default: none
+    for (FieldRequest& request : parse_fields(text)) o.fields.push_back(std::move(request));
+  };
+  row.get = [](const CompareOptions& o) {
+    std::string text;
+    for (const FieldRequest& request : o.fields) text += (text.empty() ? "" : "|") + request.name + "=" + request.what;
+    return text;
+  };
+  row.is_list = row.is_named = true;
+  row.file_key = "fields";
+  return row;
+}
+
+/// A list of fields with thresholds; setting it again adds to it.
+Setting patches_of_setting() {
+  Setting row{
+      "patches-of",
+      "Fields",
+      SettingKind::kText,
+      {},
+      "Find the connected areas of each state beyond a threshold of a field, and what became of each in the other "
+      "state: FIELD>T, FIELD<T or FIELD>T<U (quoted in a shell); potential alone means potential>1<-1. Several may be "
+      "given",
+      false,
+      nullptr,
+      nullptr};
+  row.set = [](CompareOptions& o, const std::string& text) {
+    for (PatchesRequest& request : parse_patches_of(text)) o.patches_of.push_back(std::move(request));
+  };
+  row.get = [](const CompareOptions& o) {
+    std::string text;
+    for (const PatchesRequest& request : o.patches_of) text += (text.empty() ? "" : ",") + to_string(request);
+    return text;
+  };
+  row.is_list = true;
+  return row;
+}
+
+/// The settings whose key in OUT.json ends with a unit.
+constexpr std::pair<const char*, const char*> kUnits[] = {{"grid-spacing", "A"},       {"max-step", "A"},
+                                                          {"distance-threshold", "A"}, {"gvf-weight", "A2"},
+                                                          {"temperature", "K"},        {"region-within", "A"}};
+
+/// Beyond these nobody compares surfaces, and a computation lasts for days or ends in a lack of memory.
+constexpr SettingLimits kLimits[] = {{"grid-spacing", 0.001, 20},
+                                     {"radius-scale", 0.01, 20},
+                                     {"isovalue", 1e-6, 1e6},
+                                     {"temperature", 1, 1e5},
+                                     {"require", 0, 1},
+                                     {"region-within", 0, 1000},
+                                     {"max-step", 0.001, 1000},
+                                     {"max-edge", 0.25, 1000},
+                                     {"distance-threshold", 0, 1000},
+                                     {"gvf-weight", 1e-6, 1e6},
+                                     {"gvf-tolerance", 1e-12, 1000},
+                                     {"gvf-max-sweeps", 0, 1e6},
+                                     {"sigma", 1e-6, 1000},
+                                     {"max-iterations", 0, 1e6},
+                                     {"regularize-sigma", 1e-6, 1000},
+                                     {"regularize-max-iterations", 0, 1e6}};
+
+std::vector<Setting> make_settings() {
+  std::vector<Setting> all;
+  all.push_back(choice(
+      "align", "Molecules", {"all", "backbone", "ca", "none"},
+      [](CompareOptions& o, const std::string& text) { o.align = parse_align_atoms(text); },
+      [](const CompareOptions& o) { return to_string(o.align); },
+      "Paired atoms to superpose; none compares the molecules as given"));
+  Setting domains{"domains",
+                  "Molecules",
+                  SettingKind::kText,
+                  {},
+                  "Motions that the mapping follows: none superposes the whole; with local, each residue follows the "
+                  "motion of its neighbourhood (morph only); as-needed maps with local once more where the mapping "
+                  "with none slips, and keeps the better one. Rigid domains, each superposed by itself: chains, auto "
+                  "(found by a search), or the source's residues, such as A:1-29,68-117/A:30-67",
+                  false,
+                  nullptr,
+                  nullptr};
+  domains.set = [](CompareOptions& o, const std::string& text) {
+    check_domains(text);
+    o.domains = text;
+  };
+  domains.get = [](const CompareOptions& o) { return o.domains; };
+  all.push_back(domains);
+  add_input_settings(all);
+  all.push_back(field_setting());
+  all.push_back(patches_of_setting());
+  all.push_back(offset_setting());
+  all.push_back(of_surface(number(
+      "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
+      "Temperature of kT in potentials and units, K")));
+  all.push_back(boolean(
+      "trust-maps", "Potentials", [](auto& o) -> auto& { return o.trust_maps; },
+      "Take given maps as they are: maps that do not fit the molecules' charges, or a potential in vacuum against one "
+      "in water, give warnings and are not refused"));
+  all.push_back(number(
+      "require", "Verdict", kPositive, [](auto& o) -> auto& { return o.required_share; },
+      "Share of the source's surface, and of the target's, that has to be trusted, 0 to 1; with less a result is NOT "
+      "TRUSTWORTHY. Use 0.95 for an answer of yes or no"));
+  add_surface_settings(all);
+  add_mapping_settings(all);
+  const std::size_t first = all.size();
+  add_iteration_settings(
+      all, "regularize-", "Regularization", [](auto& o) -> auto& { return o.regularize; },
+      [](auto& o) -> auto& { return o.regularize_min_displacement; });
+  for (std::size_t i = first; i < all.size(); ++i) all[i].of_surface = true;
+  for (Setting& setting : all) {
+    for (const auto& [name, unit] : kUnits)
+      if (setting.name == name) setting.unit = unit;
+  }
+  set_limits(all, kLimits, &Setting::name);
+  return all;
+}
+
+}  // namespace
+
+void refuse_value(const std::string& name, const std::string& text, const std::string& accepted) {
+  throw InputError(option(name) + ": '" + text + "' is not " + accepted);
+}
+
+void check_limits(const SettingLimits& limits, const std::string& text, const std::string& value) {
+  double number = 0;
+  if (!parse(value, number) || (number >= limits.least && number <= limits.most)) return;
+  refuse_value(limits.name, text, "a number from " + written(limits.least) + " to " + written(limits.most));
+}
+
+Setting of_surface(Setting row) {
+  row.of_surface = true;
+  return row;
+}
+
+std::string Setting::key() const {
+  if (!file_key.empty()) return file_key;
+  std::string key = unit.empty() ? name : name + "_" + unit;
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
+const std::vector<Setting>& settings() {
+  static const std::vector<Setting> all = make_settings();
+  return all;
+}
+
+std::vector<std::pair<std::string, std::string>> setting_texts(const CompareOptions& options) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const Setting& setting : settings()) texts.emplace_back(setting.name, setting.get(options));
+  return texts;
+}
+
+void refuse_fields(const CompareOptions& options, const std::string& what) {
+  if (!options.fields.empty())
+    throw InputError(option("field") + ": " + what + " has no fields besides the potential; leave the option out");
+  refuse_patches_of(options, what);
+}
+
+void refuse_patches_of(const CompareOptions& options, const std::string& what) {
+  if (!options.patches_of.empty())
+    throw InputError(option("patches-of") + ": " + what + " has no patches of one state; compare pairs by them");
+}
+
+const Setting& find_setting(const std::string& name) {
+  for (const Setting& setting : settings()) {
+    if (setting.name == name) return setting;
+  }
+  for (const RenamedSetting& renamed : renamed_settings()) {
+    if (renamed.old_name == name) throw InputError(option(name) + " is called " + option(renamed.name) + " now");
+  }
+  throw InputError("there is no setting '" + name + "'");
+}
+
+const std::vector<RenamedSetting>& renamed_settings() {
+  static const std::vector<RenamedSetting> all{{"pieces", "domains"}};
+  return all;
+}
+
+namespace {
+
+/// Refuses settings that the chosen method would ignore.
+void refuse_of_other_method(const std::vector<std::pair<std::string, std::string>>& given, Method method) {
+  const std::string other = method == Method::kMorph ? kDeformGroup : kMorphGroup;
+  for (const auto& [name, text] : given) {
+    const Setting& setting = find_setting(name);
+    if (setting.group != other || (name == kThesisSetting && text == "0")) continue;
+    const std::string its_method = method == Method::kMorph ? "deform" : "morph";
+    throw InputError(option(name) + " is a setting of the method " + its_method + ", and the method is " +
+                     to_string(method) + "; give " + option("method", its_method) + " as well, or leave " +
+                     option(name) + " out");
+  }
+}
+
+}  // namespace
+
+CompareOptions make_options(const std::vector<std::pair<std::string, std::string>>& given) {
+  const bool thesis = std::any_of(given.begin(), given.end(), [](const auto& setting) {
+    return setting.first == kThesisSetting && setting.second == "1";
+  });
+  CompareOptions options = thesis ? thesis_options() : CompareOptions{};
+  for (const auto& [name, text] : given) find_setting(name).set(options, text);
+  refuse_of_other_method(given, options.method);
+  check_input_options(options.input);
+  check_fields(options.fields, part_names(options.input));
+  check_patches_of(options.patches_of, options.fields);
+  check_readings(options);
+  return options;
+}
+
+}  // namespace espdiff

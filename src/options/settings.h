@@ -1,0 +1,107 @@
+// settings.h: every setting of a comparison by name, once for the command line, the Tcl commands and their manuals.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace espdiff {
+
+struct CompareOptions;
+
+enum class SettingKind { kNumber, kInteger, kBoolean, kChoice, kText };
+
+/// One setting. Its name is the option's: `--grid-spacing 1` on the command line, `-grid-spacing 1` in Tcl.
+struct Setting {
+  std::string name;
+  std::string group;  ///< heading under which manuals list it
+  SettingKind kind = SettingKind::kNumber;
+  std::vector<std::string> choices;  ///< of a choice
+  std::string help;
+  bool of_surface = false;  ///< whether one molecule's surface depends on it
+  /// Sets the value from its text.
+  /// @throws InputError naming the setting, the text and the accepted values
+  std::function<void(CompareOptions&, const std::string&)> set;
+  /// The value as a text that set() accepts.
+  std::function<std::string(const CompareOptions&)> get;
+  std::string unit = "";  ///< "A", "K", "A2": ends the name of its key in OUT.json
+  bool is_list = false;   ///< a text of several values, parted by commas; on the command line it may be repeated
+  bool is_file = false;   ///< the text names files, which are sought from the working folder
+  bool is_named = false;  ///< a list of NAME=TEXT, parted by `|`; in Tcl {NAME TEXT ...}
+
+  std::string file_key = "";  ///< its key in OUT.json where that is not made of its name
+
+  /// Its key in OUT.json: "grid_spacing_A".
+  std::string key() const;
+};
+
+/// What a numeric setting accepts at least and at most, so that the work that follows from it stays within reason. What
+/// a molecule makes of it is asked when the molecule is known (base/work.h).
+struct SettingLimits {
+  const char* name;
+  double least, most;
+};
+
+/// @param value as its setting's get() writes it
+/// @throws InputError naming the limits
+void check_limits(const SettingLimits& limits, const std::string& text, const std::string& value);
+
+/// Holds the settings of a table that have limits to them. @param name which of a row's names the limits give
+template <typename Row, std::size_t N>
+void set_limits(std::vector<Row>& rows, const SettingLimits (&all)[N], std::string Row::*name) {
+  for (Row& row : rows) {
+    for (const SettingLimits& limits : all) {
+      if (row.*name != limits.name) continue;
+      row.set = [set = row.set, get = row.get, limits](auto& options, const std::string& text) {
+        set(options, text);
+        check_limits(limits, text, get(options));
+      };
+    }
+  }
+}
+
+/// Headings of the settings that say which atoms are compared, and where their charges come from.
+constexpr const char* kStructureGroup = "Structures";
+constexpr const char* kChargeGroup = "Charges";
+constexpr const char* kRegionGroup = "Region";
+
+/// Whether one molecule's preparation depends on a setting: which atoms, and how they get charges.
+bool is_of_preparation(const Setting& setting);
+
+/// All settings, in the order of the manuals.
+const std::vector<Setting>& settings();
+
+/// Every setting's value as text, by name.
+std::vector<std::pair<std::string, std::string>> setting_texts(const CompareOptions& options);
+
+/// @param what of a run without patches of one state: "a matrix"
+/// @throws InputError if the options ask for them
+void refuse_patches_of(const CompareOptions& options, const std::string& what);
+
+/// @param what of a run that compares potentials alone: "an ensemble"
+/// @throws InputError if the options name fields, or patches of one state
+void refuse_fields(const CompareOptions& options, const std::string& what);
+
+/// For what makes several results of one kind. @throws InputError where causes are asked for
+void refuse_causes(const CompareOptions& options, const char* of_what);
+
+/// @throws InputError if there is none of that name; for an old name the message gives the new one
+const Setting& find_setting(const std::string& name);
+
+/// An old name of a setting, refused with the new one until 1.0.
+struct RenamedSetting {
+  std::string old_name, name;
+};
+const std::vector<RenamedSetting>& renamed_settings();
+
+/// The setting that makes the thesis' original iteration the default of all others.
+constexpr const char* kThesisSetting = "thesis";
+
+/// Options from the given settings; the others keep their defaults, or the thesis' values with `thesis`. The order does
+/// not matter.
+/// @throws InputError as Setting::set, find_setting
+CompareOptions make_options(const std::vector<std::pair<std::string, std::string>>& given);
+
+}  // namespace espdiff
