@@ -8,6 +8,7 @@
 #include "base/formatted.h"
 #include "base/residue_label.h"
 #include "base/short_numbers.h"
+#include "base/triangle_areas.h"
 #include "certificate/own_potentials.h"
 #include "certificate/slip.h"
 #include "engine/engine.h"
@@ -101,7 +102,7 @@ double same_residue_share(const MappedSurface& s, const std::vector<std::int32_t
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     if (!s.unmatched.empty() && s.unmatched[t] != 0) continue;
     const Triangle& v = s.triangles[t];
-    const double area = 0.5 * norm(cross(s.positions[v[1]] - s.positions[v[0]], s.positions[v[2]] - s.positions[v[0]]));
+    const double area = triangle_area(s.positions, v);
     for (const std::uint32_t c : v) {
       if (source_residue[c] < 0 || target_of[static_cast<std::size_t>(source_residue[c])] < 0) continue;
       all += area / 3;

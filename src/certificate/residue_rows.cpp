@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/not_a_number.h"
+#include "base/triangle_areas.h"
 
 namespace espdiff {
 namespace {

@@ -6,18 +6,13 @@
 #include <utility>
 
 #include "base/not_a_number.h"
+#include "base/triangle_areas.h"
 
 namespace espdiff {
 
 std::vector<double> matched_areas(const MappedSurface& s) {
-  std::vector<double> areas(s.positions.size(), 0.0);
-  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
-    if (s.corrupt[t] != 0 || (!s.unmatched.empty() && s.unmatched[t] != 0)) continue;
-    const Triangle& v = s.triangles[t];
-    const double area = 0.5 * norm(cross(s.positions[v[1]] - s.positions[v[0]], s.positions[v[2]] - s.positions[v[0]]));
-    for (const std::uint32_t c : v) areas[c] += area / 3;
-  }
-  return areas;
+  return corner_areas(s.positions, s.triangles,
+                      [&](std::size_t t) { return s.corrupt[t] == 0 && (s.unmatched.empty() || s.unmatched[t] == 0); });
 }
 
 double share_outside(const MappedSurface& surface, const std::vector<double>& areas) {

@@ -9,6 +9,7 @@
 #include "base/formatted.h"
 #include "base/not_a_number.h"
 #include "base/residue_label.h"
+#include "base/triangle_areas.h"
 #include "certificate/result.h"
 
 namespace espdiff {
@@ -19,11 +20,6 @@ using ResiduePair = std::pair<std::int32_t, std::int32_t>;
 std::uint8_t code(Why why) { return static_cast<std::uint8_t>(why); }
 
 bool is_matched(const MappedSurface& s, std::size_t t) { return s.unmatched.empty() || s.unmatched[t] == 0; }
-
-template <typename Positions>
-double area_of_triangle(const Positions& p, const Triangle& v) {
-  return 0.5 * norm(cross(p[v[1]] - p[v[0]], p[v[2]] - p[v[0]]));
-}
 
 /// Pairs of the target's residues that share a triangle of the mapped surface, smaller first.
 std::set<ResiduePair> touching_residues(const MappedSurface& s) {
@@ -136,11 +132,11 @@ TrustedArea sum_trusted(const MappedSurface& s, const std::vector<float>& outsid
   double source = 0, matched = 0, trusted = 0;
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     if (!outside.empty() && outside[t] != 0) continue;
-    const double before = area_of_triangle(s.source_positions, s.triangles[t]);
+    const double before = triangle_area(s.source_positions, s.triangles[t]);
     source += before;
     sums.by_why[s.why[t]] += before;
     if (!is_matched(s, t)) continue;
-    const double after = area_of_triangle(s.positions, s.triangles[t]);
+    const double after = triangle_area(s.positions, s.triangles[t]);
     matched += after;
     trusted += s.why[t] == code(Why::kTrusted) ? after : 0;
   }
@@ -157,7 +153,7 @@ TurnedArea turned_area(const MappedSurface& s, const std::vector<float>& outside
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     if (s.why[t] != code(Why::kTrusted) || (!outside.empty() && outside[t] != 0)) continue;
     const Triangle& corners = s.triangles[t];
-    const double before = area_of_triangle(s.source_positions, corners);
+    const double before = triangle_area(s.source_positions, corners);
     trusted += before;
     const auto is_turned = [&](std::uint32_t v) { return s.turned[v] != 0; };
     if (!s.turned.empty() && std::count_if(corners.begin(), corners.end(), is_turned) >= 2) {
@@ -168,7 +164,7 @@ TurnedArea turned_area(const MappedSurface& s, const std::vector<float>& outside
       continue;
     }
     if (s.potential_source.empty()) continue;
-    const double after = area_of_triangle(s.positions, corners);  // the weight of the metrics
+    const double after = triangle_area(s.positions, corners);  // the weight of the metrics
     rest += after;
     for (const std::uint32_t v : corners)
       difference += after / 3 *
@@ -194,7 +190,7 @@ WholeSurface whole_surface(const CompareResult& result) {
   std::vector<double> rest(result.residues.size(), 0.0);
   double all = 0, left_out = 0;
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
-    const double area = area_of_triangle(s.source_positions, s.triangles[t]);
+    const double area = triangle_area(s.source_positions, s.triangles[t]);
     all += area;
     if (s.why[t] == code(Why::kTrusted)) continue;
     left_out += area;

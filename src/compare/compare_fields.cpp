@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/triangle_areas.h"
 #include "certificate/trusted_area.h"
 #include "engine/engine.h"
 #include "field/read_field.h"

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/short_numbers.h"
 #include "base/surface_parts.h"
+#include "base/triangle_areas.h"
 #include "causes/causes.h"
 #include "causes/reading.h"
 #include "compare/cause_probes.h"
@@ -46,13 +47,8 @@ std::vector<double> weights_of(const ReadingRequest& request, const std::string&
   std::vector<float> outside;
   if (request.of == ReadingOf::kRegion || request.of == ReadingOf::kPatch)
     outside = outside_of_reading(request, result, parts);
-  std::vector<double> weights(s.positions.size(), 0.0);
-  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
-    const Triangle& v = s.triangles[t];
-    if (s.why[t] != 0 || (!outside.empty() && outside[t] != 0)) continue;
-    const double area = 0.5 * norm(cross(s.positions[v[1]] - s.positions[v[0]], s.positions[v[2]] - s.positions[v[0]]));
-    for (const std::uint32_t c : v) weights[c] += area / 3;
-  }
+  std::vector<double> weights = corner_areas(
+      s.positions, s.triangles, [&](std::size_t t) { return s.why[t] == 0 && (outside.empty() || outside[t] == 0); });
   if (request.of == ReadingOf::kResidue) {
     for (std::size_t v = 0; v < weights.size(); ++v) {
       if (s.residue[v] < 0 || !is_residue(request, source.residues[static_cast<std::size_t>(s.residue[v])]))

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "base/not_a_number.h"
+#include "base/triangle_areas.h"
 #include "certificate/result.h"
 #include "certificate/trusted_area.h"
 #include "compare/compare.h"

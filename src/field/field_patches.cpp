@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/triangle_areas.h"
 #include "field/field_result.h"
 
 namespace espdiff {
@@ -123,8 +124,7 @@ class PatchSearch {
       }
       if (above.empty()) continue;
       const std::vector<Vec3d>& p = state_.positions;
-      const PartAbove part = part_above(0.5 * norm(cross(p[c[1]] - p[c[0]], p[c[2]] - p[c[0]])),
-                                        {value(c[0]), value(c[1]), value(c[2])}, threshold_);
+      const PartAbove part = part_above(triangle_area(p, c), {value(c[0]), value(c[1]), value(c[2])}, threshold_);
       if (!(part.area > 0)) continue;
       Sums& sums = sums_[joined_.root(above.front())];
       sums.area += part.area;

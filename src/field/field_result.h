@@ -48,19 +48,6 @@ struct FieldResult {
   std::vector<float> source, target;   ///< [vertex] NaN without a value; empty for a region or patch
 };
 
-/// [vertex] a third of the area of each triangle that counts. @param counts [triangle] called with its index
-template <typename Positions, typename Counts>
-std::vector<double> corner_areas(const Positions& p, const std::vector<Triangle>& triangles, const Counts& counts) {
-  std::vector<double> weight(p.size(), 0.0);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (!counts(t)) continue;
-    const Triangle& v = triangles[t];
-    const double area = 0.5 * norm(cross(p[v[1]] - p[v[0]], p[v[2]] - p[v[0]]));
-    for (const std::uint32_t c : v) weight[c] += area / 3;
-  }
-  return weight;
-}
-
 /// @param weight  [vertex] from corner_areas(); vertices of weight 0 do not count
 /// @param residue [vertex] -1 for none  @param source, target [vertex] finite where vertices count
 std::vector<ResidueMeans> residue_means(const std::vector<double>& weight, const std::vector<std::int32_t>& residue,

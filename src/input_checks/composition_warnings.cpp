@@ -12,6 +12,7 @@
 #include "base/formatted.h"
 #include "base/residue_label.h"
 #include "base/short_numbers.h"
+#include "base/triangle_areas.h"
 #include "input_checks/input_warnings.h"
 
 namespace espdiff {
@@ -93,7 +94,7 @@ class NearbyArea {
       if (!counts.empty() && (counts[t] != 0) != wanted) continue;
       const Triangle& v = triangles[t];
       const Vec3d &a = vertices[v[0]], &b = vertices[v[1]], &c = vertices[v[2]];
-      if (is_near((1.0 / 3) * (a + b + c))) area += 0.5 * norm(cross(b - a, c - a));
+      if (is_near((1.0 / 3) * (a + b + c))) area += triangle_area(vertices, v);
     }
     return area;
   }

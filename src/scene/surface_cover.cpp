@@ -2,11 +2,13 @@
 #include "scene/surface_cover.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
 
 #include "base/smooth_field.h"
+#include "base/triangle_areas.h"
 
 namespace espdiff {
 namespace {
@@ -50,10 +52,6 @@ void renew_normals(const std::vector<Triangle>& triangles, const std::vector<boo
   }
 }
 
-double area_of(const Triangle& t, const std::vector<Vec3d>& p) {
-  return 0.5 * norm(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
-}
-
 /// [vertex] 1 inside tears, 0 outside, smooth between: most triangles around an unmatched vertex span a tear.
 std::vector<float> torn_share(const SurfaceFile& surface, const std::vector<Vec3f>& start,
                               const std::vector<bool>& is_free, const SurfaceCover& cover) {
@@ -62,8 +60,8 @@ std::vector<float> torn_share(const SurfaceFile& surface, const std::vector<Vec3
   for (const Triangle& t : surface.triangles) {
     if (!is_free[t[0]] && !is_free[t[1]] && !is_free[t[2]]) continue;
     const auto at = [&](std::size_t k) { return static_cast<Vec3d>(start[t[k]]); };
-    const double before = area_of({0, 1, 2}, {at(0), at(1), at(2)});
-    const bool is_torn = area_of(t, cover.positions) > kTornGrowth * before;
+    const double before = triangle_area(std::array<Vec3d, 3>{at(0), at(1), at(2)}, Triangle{0, 1, 2});
+    const bool is_torn = triangle_area(cover.positions, t) > kTornGrowth * before;
     for (const std::uint32_t corner : t) ++(is_torn ? n_torn : n_whole)[corner];
   }
   std::vector<float> share(is_free.size(), 0);

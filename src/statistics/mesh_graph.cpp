@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/triangle_areas.h"
+
 namespace espdiff {
 
 MeshGraph make_mesh_graph(const std::vector<Vec3d>& positions, const std::vector<Triangle>& triangles) {
@@ -11,7 +13,7 @@ MeshGraph make_mesh_graph(const std::vector<Vec3d>& positions, const std::vector
   graph.area.assign(positions.size(), 0);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const Triangle& t : triangles) {
-    const double area = norm(cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]])) / 2;
+    const double area = triangle_area(positions, t);
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::uint32_t a = t[corner], b = t[(corner + 1) % 3];
       graph.area[a] += area / 3;
