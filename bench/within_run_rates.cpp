@@ -3,6 +3,7 @@
 //     espdiff_within_run_rates 200            # without an effect, 200 repeats of each row, as a table
 //     espdiff_within_run_rates 200 1.5        # the second run differs by 1.5 standard deviations on 5 % of the area
 //     espdiff_within_run_rates 200 0 0.2      # only a fifth of the surface is correlated in time, the rest is not
+//     espdiff_within_run_rates 400 0 1 100 2  # one row: 100 frames, g = 2
 //
 // Fields are noise on an ellipsoid of 642 vertices, smooth over the surface and autoregressive in time.
 #include <algorithm>
@@ -86,8 +87,8 @@ void print_row(const MeshGraph& graph, std::size_t n_frames, const Design& desig
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2 || argc > 4) {
-    std::fprintf(stderr, "usage: espdiff_within_run_rates REPEATS [EFFECT [CORRELATED_SHARE]]\n");
+  if (argc < 2 || argc == 5 || argc > 6) {
+    std::fprintf(stderr, "usage: espdiff_within_run_rates REPEATS [EFFECT [CORRELATED_SHARE [FRAMES G]]]\n");
     return 2;
   }
   std::vector<Vec3d> positions;
@@ -99,8 +100,13 @@ int main(int argc, char** argv) {
   design.correlated_share = argc > 3 ? std::strtod(argv[3], nullptr) : 1;
   std::printf(
       "| frames | g | blocks | repeats | with p | significant by max-t | by TFCE |\n|---|---|---|---|---|---|---|\n");
-  for (const std::size_t n_frames : {10, 20, 25, 50, 100}) {
-    for (const double g : {1.0, 2.0, 5.0, 10.0, 20.0}) {
+  const bool is_one_row = argc == 6;
+  const auto frames = is_one_row ? std::vector<std::size_t>{std::strtoul(argv[4], nullptr, 10)}
+                                 : std::vector<std::size_t>{10, 20, 25, 50, 100};
+  const auto inefficiencies =
+      is_one_row ? std::vector<double>{std::strtod(argv[5], nullptr)} : std::vector<double>{1, 2, 5, 10, 20};
+  for (const std::size_t n_frames : frames) {
+    for (const double g : inefficiencies) {
       design.inefficiency = g;
       print_row(graph, n_frames, design, static_cast<int>(std::strtol(argv[1], nullptr, 10)));
     }

@@ -40,7 +40,7 @@ Page.patches = (() => {
       draw(svg, 'line', { x1: left, x2: width - 8, y1: yOf(v), y2: yOf(v), class: 'grid' });
       draw(svg, 'text', { x: left - 6, y: yOf(v) + 4, 'text-anchor': 'end' }, shown(v));
     }
-    draw(svg, 'text', { x: left, y: 11 }, 'Mean potential of patch ' + (picked + 1) + ' [' + record.quantities[0].unit + '], frame by frame; bars: means of the replicates');
+    draw(svg, 'text', { x: left, y: 11 }, 'Mean of patch ' + (picked + 1) + (record.quantities[0].unit ? ' [' + record.quantities[0].unit + ']' : '') + ', frame by frame; bars: means of the replicates');
     runs.forEach((run, r) => {
       const end = r + 1 < runs.length ? runs[r + 1].begin : n, colour = colours[groups.indexOf(run.group) % 2];
       let path = '', sum = 0, count = 0;

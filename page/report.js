@@ -148,7 +148,7 @@
 
   // Both states have one scale, so that they can be compared by eye.
   const ranges = record.quantities.map((q) => q.range);
-  const states = record.quantities.map((q, i) => i).filter((i) => /^potential_(source|target)$/.test(record.quantities[i].name));
+  const states = record.quantities.map((q, i) => i).filter((i) => /^(?!deviation_|effective_samples_|counterparts_).*_(source|target)$/.test(record.quantities[i].name));
   for (const i of states) ranges[i] = Math.max(...states.map((k) => record.quantities[k].range));
   function repaint() {
     const list = panels();

@@ -207,6 +207,14 @@ namespace eval ::espdiff {
         return [dict get $option default]
     }
 
+    # The value of an option that was given twice: a list has both; of any other the last one counts.
+    proc both_values {option first second} {
+        dict with option {}
+        if {$kind eq "named"} { return [concat $first $second] }
+        if {$setting && $list} { return $first,$second }
+        return $second
+    }
+
     # -option value pairs as a dict of names without the dash; given settings are under `settings`. Options without a
     # default are absent unless given.
     proc parse_options {name words} {
@@ -218,6 +226,7 @@ namespace eval ::espdiff {
                 dict set options [string range [dict get $option name] 1 end] [default_of $option]
             }
         }
+        set given [dict create]
         while {[llength $words] > 0} {
             set words [lassign $words word]
             if {![dict exists $known $word]} { refuse_word $name $word [dict keys $known] }
@@ -226,6 +235,8 @@ namespace eval ::espdiff {
             set value [check_value [dict get $known $word] $value]
             set key [string range $word 1 end]
             if {[dict get $known $word setting]} { set key [list settings $key] }
+            if {[dict exists $given $word]} { set value [both_values [dict get $known $word] [dict get $given $word] $value] }
+            dict set given $word $value
             dict set options {*}$key $value
         }
         dict for {word option} $known {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import glob
 import hashlib
 import numbers
 import os
@@ -130,6 +131,11 @@ class Ensemble(EngineResult):
         return f"<espdiff.Ensemble of {' and '.join(self.means)}, {self.n_frames} frames>"
 
     @property
+    def fields(self):
+        """The fields besides the potential, {name: Ensemble}; their family-wise p are over all their surfaces together."""
+        return {name: Ensemble(core, self._folder) for name, core in self._core.fields.items()}
+
+    @property
     def fixed_patches(self):
         """The patches that `patches=` named, by name: dicts, as in OUT.json."""
         return self.to_dict().get("fixed_patches", {})
@@ -170,7 +176,8 @@ class Ensemble(EngineResult):
 
         arrays = {f"mean_{group}": values for group, values in self.means.items()}
         if len(self.difference):
-            arrays.update(potential_difference=self.difference, standard_error=self.standard_error, p=self.p,
+            arrays.update({f"{self.to_dict().get('field', {}).get('name', 'potential')}_difference": self.difference})
+            arrays.update(standard_error=self.standard_error, p=self.p,
                           p_family_wise=self.p_family_wise, patch=self.patch)
         return polydata(self.positions, self.triangles, {**arrays, "residue_index": self.residue_index})
 
@@ -234,6 +241,11 @@ def ensemble(groups=None, *, output=None, potential: str = "auto", device: str =
     _checks.computation(potential, device, threads)
     if groups is not None:
         _check_groups(groups)
+    if hasattr(options.get("fields"), "items"):
+        for name, kind in options["fields"].items():
+            if not isinstance(kind, str):
+                raise _core.InputError(f"fields[{name!r}]: an ensemble takes kinds of fields, such as 'charge', not a "
+                                       f"{type(kind).__name__}; write the values of each residue or atom to a table")
     order = {name: value for name, value in options.items() if name in ORDER_KEYS}
     settings = {name: value for name, value in options.items() if name not in ORDER_KEYS}
     if output is None and (order.get("shard") or order.get("resume")):
@@ -282,9 +294,11 @@ def ensemble_in_parts(apply, n_parts, groups, output, *, resume=False, overwrite
     if n_parts > 1 and not (resume and os.path.exists(prefix + ".h5")):
         mapping = {**options, "output": prefix, "resume": resume, "overwrite": overwrite, "progress": None}
         apply(_part, [(groups, {**mapping, "shard": f"{i + 1}/{n_parts}"}) for i in range(n_parts)])
-        parts = [f"{prefix}.shard-{i + 1}-of-{n_parts}.h5" for i in range(n_parts)]
-        _core.merge_ensemble(parts, prefix, overwrite, None)
-        for path in parts:
-            os.remove(path)
+        first = f".shard-1-of-{n_parts}.h5"  # the run's, then those of its fields
+        for stem in sorted(path[:-len(first)] for path in [prefix + first, *glob.glob(glob.escape(prefix) + ".*" + first)]):
+            parts = [f"{stem}.shard-{i + 1}-of-{n_parts}.h5" for i in range(n_parts)]
+            _core.merge_ensemble(parts, stem, overwrite, None)
+            for path in parts:
+                os.remove(path)
         resume, overwrite = True, False
     return ensemble(groups, output=prefix, resume=resume, overwrite=overwrite, **options)

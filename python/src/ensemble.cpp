@@ -9,6 +9,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "engine/engine.h"
+#include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_study.h"
 #include "ensemble_result.h"
 #include "frames/frame_range.h"
@@ -127,6 +128,12 @@ nb::object ensemble(const nb::list& groups, const nb::dict& order, const Setting
     });
   }
   if (made->answer.result == nullptr) return nb::none();
+  for (FieldAnswer& field : made->answer.fields) {
+    auto own = std::make_shared<PyEnsemble>();
+    own->answer.file = std::move(field.file);
+    own->answer.result = std::move(field.result);
+    made->fields.emplace_back(field.name, std::move(own));
+  }
   return nb::cast(made);
 }
 

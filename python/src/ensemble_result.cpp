@@ -170,6 +170,14 @@ void add_ensemble_result(nb::module_& module) {
       .def_prop_ro("n_frames", [](const PyEnsemble& e) { return e.answer.file->plan().n_frames(); })
       .def_prop_ro(
           "written", [](const PyEnsemble& e) { return e.answer.written; }, "Names of the files.")
+      .def_prop_ro(
+          "fields",
+          [](const PyEnsemble& e) {
+            nb::dict fields;
+            for (const auto& [name, field] : e.fields) fields[name.c_str()] = field;
+            return fields;
+          },
+          "{name: Ensemble}: the fields besides the potential.")
       .def_prop_ro("design_warnings", [](const PyEnsemble& e) { return e.warnings; })
       .def("potential", &potential_of_frame, nb::arg("frame"),
            "(vertices) float32: of one frame of all, counted from 0; NaN where it has no counterpart.")

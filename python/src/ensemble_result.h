@@ -3,7 +3,9 @@
 
 #include <nanobind/nanobind.h>
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ensemble/ensemble_study.h"
@@ -12,7 +14,8 @@ namespace espdiff::python {
 
 struct PyEnsemble {
   EnsembleAnswer answer;
-  std::vector<std::string> warnings;  ///< about the design, before the run
+  std::vector<std::string> warnings;                                          ///< about the design, before the run
+  std::vector<std::pair<std::string, std::shared_ptr<PyEnsemble>>> fields{};  ///< by name
 };
 
 /// Adds the class Ensemble.

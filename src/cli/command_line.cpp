@@ -100,6 +100,7 @@ int run(int argc, char** argv) {
                                            espdiff::cli::add_completion(app), espdiff::cli::add_man(app)};
   try {
     std::vector<std::string> words = espdiff::cli::understood({argv + std::min(argc, 1), argv + argc}, app);
+    espdiff::cli::refuse_empty(words);
     std::reverse(words.begin(), words.end());  // as CLI11 takes a vector
     app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {

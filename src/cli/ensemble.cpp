@@ -84,6 +84,10 @@ int ensemble_verb(const EnsembleArguments& a, const Context& context) {
   for (const EnsembleReport& report : answer.reports) print_run(report, answer.device);
   if (answer.result == nullptr) return 0;
   print_ensemble(std::cout, *answer.file, *answer.result);
+  for (const FieldAnswer& field : answer.fields) {
+    std::cout << "\n---- field " << field.name << " ----\n\n";
+    print_ensemble(std::cout, *field.file, *field.result);
+  }
   std::cout << "\nwritten:";
   for (const std::string& path : answer.written) std::cout << ' ' << path;
   std::cout << '\n';
@@ -215,7 +219,7 @@ Verb add_ensemble(CLI::App& app) {
   parser->add_option("-o,--output", a->study.run.output, "Prefix of the results")->required();
   add_run_options(*parser, *a);
   add_statistics_options(*parser, *a);
-  add_settings(*parser, a->settings, SettingsFor::kFrames);
+  add_settings(*parser, a->settings, SettingsFor::kVariants);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   set_help(*parser,

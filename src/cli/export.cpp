@@ -4,6 +4,7 @@
 
 #include "base/printable.h"
 #include "cli/help.h"
+#include "cli/options.h"
 #include "cli/output_prefix.h"
 #include "cli/verbs.h"
 #include "export/export_result.h"
@@ -43,6 +44,8 @@ Verb add_export(CLI::App& app) {
   parser->add_option("--to", a->format, "Format")->required()->check(CLI::IsMember(names))->type_name("FORMAT");
   parser->add_option("-o,--output", a->output, "File to write; default: OUT with the format's ending")
       ->type_name("FILE");
+  a->options.overwrite = false;
+  add_overwrite(*parser, a->options.overwrite);
   parser->add_option("--array", a->options.array,
                      "Point array of OUT.vtp to colour the surface by [potential_difference, or displacement]");
   parser->add_option("--residues", a->options.residues,

@@ -115,7 +115,6 @@ bool has_setting(const Setting& setting, SettingsFor what) {
   switch (what) {
     case SettingsFor::kPair: return true;
     case SettingsFor::kVariants: return !of_side && setting.name != "patches-of";
-    case SettingsFor::kFrames: return !of_side && setting.name != "patches-of" && setting.name != "field";
     case SettingsFor::kSurface: return setting.of_surface;
     case SettingsFor::kPreparation: break;
   }
@@ -207,6 +206,10 @@ void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, boo
         ->default_str(setting.get(defaults))
         ->group(group);
   }
+}
+
+void add_overwrite(CLI::App& parser, bool& overwrite) {
+  parser.add_flag("--overwrite", overwrite, "Replace files of these names, if there are any");
 }
 
 GridFile read_map(const std::string& path, const std::string& array, const std::string& unit) {

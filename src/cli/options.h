@@ -39,7 +39,6 @@ using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 enum class SettingsFor {
   kPair,        ///< all
   kVariants,    ///< of many structures alike: none of one side, no patches of one state
-  kFrames,      ///< the same without fields: of an ensemble
   kSurface,     ///< those that one molecule's surface depends on
   kPreparation  ///< which atoms, and where charges come from
 };
@@ -49,6 +48,9 @@ void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what);
 /// Adds every option of computed potentials, for make_potential_options().
 /// @param of_maps by the names of `espdiff potential`: `--grid` as PMEPot has it, not `--pme-grid`
 void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, bool of_maps);
+
+/// --overwrite, of a verb whose outputs are the files that its options name.
+void add_overwrite(CLI::App& parser, bool& overwrite);
 
 /// Reads a potential map and, unless `unit` is empty, declares its unit.
 GridFile read_map(const std::string& path, const std::string& array, const std::string& unit);

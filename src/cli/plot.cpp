@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "cli/help.h"
+#include "cli/options.h"
 #include "cli/output_prefix.h"
 #include "cli/plot_pair.h"
 #include "cli/verbs.h"
@@ -29,7 +30,7 @@ struct PlotArguments {
   int top = 20;
   std::vector<std::string> metrics;
   std::vector<double> range;
-  bool both_ways = false, normalize = false, no_marks = false, causes = false;
+  bool both_ways = false, normalize = false, no_marks = false, causes = false, overwrite = false;
 };
 
 constexpr const char* kAngstrom = "\u00C5";
@@ -238,7 +239,7 @@ std::string cause_table_of(const std::string& given) {
 int plot_verb(PlotArguments& a, const Context&) {
   a.input = a.causes ? cause_table_of(a.input) : file_to_plot(a.input);
   const PictureFormat format = picture_format(a.output);
-  check_outputs({a.input}, {a.output});
+  check_outputs({a.input}, {a.output}, a.overwrite);
   const bool is_json = lower_case(a.input).size() > 5 && lower_case(a.input).substr(a.input.size() - 5) == ".json";
   if (is_json && a.source.empty()) {
     if (a.normalize || a.both_ways) throw InputError("--normalize and --both-ways are for lines; name one --source");
@@ -286,6 +287,7 @@ void plot_frames(const std::string& table, const std::string& picture) {
   PlotArguments a;
   a.input = table;
   a.output = picture;
+  a.overwrite = true;  // as the trajectory has found it may
   plot_verb(a, {});
 }
 
@@ -301,6 +303,7 @@ Verb add_plot(CLI::App& app) {
       "Drawn by gnuplot; text stays text in an SVG.");
   parser->add_option("FILE", a->input, "A result: its prefix OUT, OUT.json, OUT.vtp, or a CSV file")->required();
   parser->add_option("-o,--output", a->output, "Picture to write (.png or .svg)")->required();
+  add_overwrite(*parser, a->overwrite);
   parser->add_option("--metric", a->metrics,
                      "Columns to draw; several for lines (default: the clustering metric; for a "
                      "trajectory mean_abs_difference)");

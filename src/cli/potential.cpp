@@ -264,7 +264,7 @@ Verb add_potential(CLI::App& app) {
   parser->add_flag("!--no-water", a->structure.include_water, "Ignore water molecules, which are kept by default")
       ->group("Molecules");
   add_device_options(*parser, a->device);
-  parser->add_flag("--overwrite", a->overwrite, "Replace files of these names, if there are any");
+  add_overwrite(*parser, a->overwrite);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   set_help(*parser, {"--output --method --select --ph --ligand --ionic-strength --pb-spacing --align --variance "
                      "--overwrite --threads --quiet",

@@ -102,7 +102,7 @@ Verb add_prepare(CLI::App& app) {
       ->group("Structures");
   add_structure_options(*parser, a->structure);
   add_settings(*parser, a->settings, SettingsFor::kPreparation);
-  parser->add_flag("--overwrite", a->overwrite, "Replace files of these names, if there are any");
+  add_overwrite(*parser, a->overwrite);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   set_help(*parser, {"",
                      {"espdiff prepare 1ake.pdb --select '//A;polymer' -o 1ake_a.pqr",

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/printable.h"
+#include "cli/options.h"
 #include "cli/scene_options.h"
 #include "io/files/check_outputs.h"
 #include "io/text/text_cursor.h"
@@ -22,6 +23,7 @@ namespace {
 
 struct RenderArguments {
   std::string input, output;
+  bool overwrite = false;
   SceneArguments scene;
 };
 
@@ -36,7 +38,7 @@ void require_png(const std::string& path) {
 int render_verb(RenderArguments& a, const Context& context) {
   require_png(a.output);
   const Scene scene = scene_of(a.scene, a.input);
-  check_outputs({a.input, a.scene.scene_file}, {a.output, a.scene.saved_scene});
+  check_outputs({a.input, a.scene.scene_file}, {a.output, a.scene.saved_scene}, a.overwrite);
   const std::unique_ptr<AtomicFile> saved = saved_scene_of(a.scene, scene);
   context.progress->report("render", 0.0);
   for (const std::string& note : render_surface(a.input, a.output, scene, saved.get())) {
@@ -53,6 +55,7 @@ Verb add_render(CLI::App& app) {
   parser->footer("Needs an X display; without one: xvfb-run -a espdiff render ...");
   parser->add_option("SURFACE", a->input, "A result of compare: its prefix OUT, OUT.vtp or OUT.json")->required();
   parser->add_option("-o,--output", a->output, "Picture to write (.png)")->required();
+  add_overwrite(*parser, a->overwrite);
   add_scene_options(*parser, a->scene);
   set_help(*parser, {"",
                      {"espdiff render result.vtp -o result.png --title 'mutant - wild type'",

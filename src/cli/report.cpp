@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "cli/help.h"
+#include "cli/options.h"
 #include "cli/output_prefix.h"
 #include "cli/verbs.h"
 #include "io/files/atomic_file.h"
@@ -17,6 +18,7 @@ namespace {
 struct ReportArguments {
   std::string input, output, title;
   std::vector<std::string> range_of;
+  bool overwrite = false;
 };
 
 /// OUT of a result that is named by it or by one of its files, a trajectory's OUT.csv among them.
@@ -29,7 +31,7 @@ std::string report_prefix(const std::string& given) {
 
 int report_verb(const ReportArguments& a, const Context& context) {
   const std::string prefix = report_prefix(a.input), output = a.output.empty() ? prefix + ".html" : a.output;
-  check_outputs(page_inputs(prefix), {output});
+  check_outputs(page_inputs(prefix), {output}, a.overwrite);
   std::vector<std::string> range_of;
   for (const std::string& other : a.range_of) range_of.push_back(surface_of_result(other));
   context.progress->report("page", 0.0);
@@ -49,6 +51,7 @@ Verb add_report(CLI::App& app) {
                    "A result of compare, trajectory, matrix or ensemble: its prefix, or one of its files")
       ->required();
   parser->add_option("-o,--output", a->output, "Page to write; default: OUT.html")->type_name("FILE");
+  add_overwrite(*parser, a->overwrite);
   parser->add_option("--title", a->title, "Heading; default: the names of both structures or groups, or OUT");
   parser
       ->add_option(

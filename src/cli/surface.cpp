@@ -30,7 +30,7 @@ namespace {
 struct SurfaceArguments {
   std::string molecule, output, density, map, map_unit, map_array;
   bool regularize = false;
-  bool quiet = false;
+  bool quiet = false, overwrite = false;
   StructureOptions structure;
   PotentialRequest potential;
   DeviceArguments device;
@@ -80,7 +80,7 @@ int surface_verb(const SurfaceArguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
   std::vector<std::string> inputs = input_files(options.input);
   inputs.insert(inputs.end(), {a.molecule, a.map});
-  check_outputs(inputs, {a.output, a.density});
+  check_outputs(inputs, {a.output, a.density}, a.overwrite);
   // Outputs that cannot be written are better found before the work than after it.
   AtomicFile surface(a.output);
   std::unique_ptr<AtomicFile> density;
@@ -136,15 +136,17 @@ Verb add_surface(CLI::App& app) {
       ->group("Molecules");
   parser->add_option("--density", a->density, "Also write the surface's density (.dx, for VMD)");
   parser->add_flag("--regularize", a->regularize, "Regularize the triangles");
+  add_overwrite(*parser, a->overwrite);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   a->potential.potential = "none";
   add_computed_map_options(*parser, a->potential);
   add_structure_options(*parser, a->structure);
   add_settings(*parser, a->settings, SettingsFor::kSurface);
   add_device_options(*parser, a->device);
-  set_help(*parser, {"--output --map --potential --select --ph --ligand --grid-spacing --regularize --threads",
-                     {"espdiff surface protein.pqr --map protein.dx --regularize -o surface.vtp",
-                      "espdiff surface entry.pdb --select '//A;polymer' --potential pb -o surface.vtp"}});
+  set_help(*parser,
+           {"--output --overwrite --map --potential --select --ph --ligand --grid-spacing --regularize --threads",
+            {"espdiff surface protein.pqr --map protein.dx --regularize -o surface.vtp",
+             "espdiff surface entry.pdb --select '//A;polymer' --potential pb -o surface.vtp"}});
   return {parser, [a](const Context& context) { return surface_verb(*a, context); }};
 }
 

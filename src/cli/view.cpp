@@ -19,6 +19,7 @@ namespace {
 
 struct ViewArguments {
   std::string input, prefix;
+  bool overwrite = false;
   SceneArguments scene;
 };
 
@@ -28,7 +29,7 @@ int view_verb(ViewArguments& a, const Context&) {
   window.height = 860;
   const Scene scene = scene_of(a.scene, a.input, window);
   if (a.prefix.empty()) a.prefix = std::filesystem::path(a.input).stem().string() + "-view";
-  check_outputs({a.input, a.scene.scene_file}, {a.scene.saved_scene});
+  check_outputs({a.input, a.scene.scene_file}, {a.scene.saved_scene}, a.overwrite);
   if (const auto saved = saved_scene_of(a.scene, scene)) saved->commit();
   run_viewer(a.input, scene, a.prefix);
   return 0;
@@ -52,6 +53,7 @@ Verb add_view(CLI::App& app) {
   parser->add_option("SURFACE", a->input, "A result of compare: its prefix OUT, OUT.vtp or OUT.json")->required();
   parser->add_option("-o,--output", a->prefix,
                      "Pictures and scenes are saved as PREFIX.png and PREFIX.json [OUT-view]");
+  parser->add_flag("--overwrite", a->overwrite, "Replace the file of --save-scene, if there is one");
   add_scene_options(*parser, a->scene);
   set_help(*parser, {"", {"espdiff view result.vtp --layout linked"}});
   return {parser, [a](const Context& context) {

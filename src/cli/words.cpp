@@ -110,6 +110,14 @@ std::vector<std::string> understood(std::vector<std::string> words, const CLI::A
   return words;
 }
 
+void refuse_empty(const std::vector<std::string>& words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (!words[i].empty() || (i > 0 && words[i - 1] == "--title")) continue;
+    throw CLI::ValidationError("there is an empty argument behind '" + (i > 0 ? words[i - 1] : std::string("espdiff")) +
+                               "', as of a variable that is not set; give a name, or leave it out");
+  }
+}
+
 std::string in_our_words(const CLI::ParseError& error, const CLI::App& app) {
   const std::string text = error.what(), name = text.substr(0, text.find(": "));
   const auto is = [&](CLI::ExitCodes code) { return error.get_exit_code() == static_cast<int>(code); };

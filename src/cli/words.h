@@ -11,6 +11,9 @@ namespace espdiff::cli {
 /// `-v` is `--version`.
 std::vector<std::string> understood(std::vector<std::string> words, const CLI::App& app);
 
+/// @throws CLI::ValidationError (an empty word, as of a variable that is not set; a title may be empty)
+void refuse_empty(const std::vector<std::string>& words);
+
 /// What is wrong with the words, in one sentence, and the nearest right word where there is one.
 std::string in_our_words(const CLI::ParseError& error, const CLI::App& app);
 

@@ -12,8 +12,11 @@
 #include "certificate/certificate.h"
 #include "certificate/result.h"
 #include "certificate/slip.h"
+#include "compare/compare_fields.h"
 #include "engine/engine.h"
 #include "engine/morph_stage.h"
+#include "field/field_kinds.h"
+#include "field/read_field.h"
 #include "input_checks/input_warnings.h"
 #include "input_checks/map_check.h"
 #include "input_checks/map_warnings.h"
@@ -59,6 +62,7 @@ struct TemplateMapping::Parts {
   GridPtr map{};
   TemplateSurface described{};
   std::vector<std::vector<double>> reading_weights{};  ///< [reading][vertex of the template]
+  std::vector<Field> fields{};                         ///< besides the potential
   std::shared_ptr<const MapCheck> first_check{};       ///< of the given map that all others are to be like
   std::string first_name{};
 
@@ -118,9 +122,8 @@ struct TemplateMapping::Parts {
                                            "morph", progress));
   }
 
-  /// The potential at the template's own vertices; those that the morph added come after them.
-  std::vector<float> sample(const GridPtr& frame_map, const CompareInput& frame, const Mapping& mapping,
-                            const Surface& target, const std::vector<Triangle>& triangles, double& outside) const {
+  /// [vertex of the template] whether it has a counterpart.
+  std::vector<bool> matched_vertices(const Mapping& mapping, const std::vector<Triangle>& triangles) const {
     std::vector<bool> matched(n_vertices, false);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       if (mapping.unmatched[t] != 0) continue;
@@ -128,6 +131,38 @@ struct TemplateMapping::Parts {
         if (v < n_vertices) matched[v] = true;
       }
     }
+    return matched;
+  }
+
+  /// The fields of a frame at the template's own vertices; NaN where they have no counterpart, or it no value.
+  void read_fields(const StateFields& of_frame, const CompareInput& frame, const GridPtr& frame_map,
+                   const Mapping& mapping, const Surface& target, const CommonFrame& common,
+                   const std::vector<Triangle>& triangles, TemplateFrame& out) const {
+    if (of_frame.empty()) return;
+    const std::vector<bool> matched = matched_vertices(mapping, triangles);
+    const FieldPlace place{engine,
+                           mapping.mapped,
+                           moved_outside(engine, mapping.mapped, target.atoms, isovalue(), options.offsets_A.front()),
+                           *frame.molecule,
+                           common.from_target,
+                           target.atoms,
+                           isovalue(),
+                           options.surface.radius_scale,
+                           frame_map};
+    for (std::size_t f = 0; f < of_frame.size(); ++f) {
+      std::vector<float> values = read_field(of_frame[f], place);
+      values.resize(n_vertices);
+      set_unmatched_to_nan(matched, values);
+      out.fields.push_back(std::move(values));
+      for (const std::string& note : of_frame[f].notes)
+        out.field_notes.push_back("field " + fields[f].quantity.name + ": " + note);
+    }
+  }
+
+  /// The potential at the template's own vertices; those that the morph added come after them.
+  std::vector<float> sample(const GridPtr& frame_map, const CompareInput& frame, const Mapping& mapping,
+                            const Surface& target, const std::vector<Triangle>& triangles, double& outside) const {
+    const std::vector<bool> matched = matched_vertices(mapping, triangles);
     OutsideSamples samples =
         sample_outside(engine, frame_map, mapping.mapped, target.atoms, isovalue(), options.offsets_A.front());
     samples.values.resize(n_vertices);
@@ -203,7 +238,8 @@ TemplateMapping::TemplateMapping(Engine& engine, const CompareInput& source, con
                                  const Progress& progress)
     : parts_(new Parts{engine, source, options, {}}) {
   check_options(options);
-  refuse_fields(options, "an ensemble");
+  refuse_patches_of(options, "an ensemble");
+  parts_->fields = make_fields(options.fields);
   parts_->prepare(progress);
 }
 
@@ -236,6 +272,7 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, bool check_slip, c
   TemplateFrame out;
   StageClock clock(out.time_ms);
   CompareResult result;
+  const StateFields of_frame = make_state_fields(p.fields, *frame.molecule, {FieldSide::kFrame, frame.fields});
   const CommonFrame common = align(*p.source.molecule, *frame.molecule, p.options, result);
   result.warnings = input_warnings(*p.source.molecule, *frame.molecule, result);
   clock.lap("align");
@@ -257,6 +294,7 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, bool check_slip, c
   if (check_slip) p.measure_slip(mapping, target, paths, result);
   clock.lap("certificate");
   out.potential = p.sample(made.map, frame, mapping, target, s.triangles, result.certificate.outside_maps);
+  p.read_fields(of_frame, frame, made.map, mapping, target, common, s.triangles, out);
   if (!p.reading_weights.empty())
     out.readings = p.readings_of(frame, made, mapping, target, result.pairing, out.potential, progress);
   s.why = why_of_mapping(s, target_of);

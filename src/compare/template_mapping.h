@@ -40,7 +40,9 @@ struct TemplateFrame {
   /// lies outside the map.
   std::vector<float> potential;
   PotentialUnit unit = PotentialUnit::kUnknown;
-  double rmsd_A = 0;                                   ///< to the template, of the paired atoms
+  std::vector<std::vector<float>> fields;  ///< [field of the options][vertex of the template] as `potential`
+  std::vector<std::string> field_notes;    ///< what does not match, such as residues that a table lacks
+  double rmsd_A = 0;                       ///< to the template, of the paired atoms
   double unmatched_template = 0, unmatched_frame = 0;  ///< fractions of the areas, as in a Certificate
   double distance_A = 0;                               ///< mean, from the mapped surface to the frame's
   double same_residue_area_fraction = 0;

@@ -155,7 +155,9 @@ std::vector<EnsembleCauses> find_ensemble_causes(Engine& engine, const CompareIn
   std::vector<std::vector<double>> areas;
   for (const std::string& text : options.causes)
     areas.push_back(areas_of_patch(parse_reading(text).patch, file, result));
-  TemplateMapping mapping(engine, source, options, progress);
+  CompareOptions of_potential = options;
+  of_potential.fields.clear();
+  TemplateMapping mapping(engine, source, of_potential, progress);
   mapping.take_apart(areas);
   std::vector<EnsembleCauses> all(areas.size());
   const EnsemblePlan& plan = file.plan();

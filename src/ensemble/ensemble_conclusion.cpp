@@ -18,10 +18,10 @@ std::string differences(const EnsembleResult& result, const std::string& unit) {
   const EnsemblePatch& patch = result.patches.front();
   const PlaceTests& t = result.patch_tests;
   return formatted(
-      " differ on %.1f A2 of %.1f A2 tested (family-wise p <= %g); the largest patch is at %s, by %.3f %s "
+      " differ on %.1f A2 of %.1f A2 tested (family-wise p <= %g); the largest patch is at %s, by %.3f%s "
       "(%.3f to %.3f)",
       result.significant_area_A2, result.tested_area_A2, result.options.alpha, patch.residues.front().first.c_str(),
-      t.difference.front(), unit.c_str(), t.low.front(), t.high.front());
+      t.difference.front(), (unit.empty() ? "" : " " + unit).c_str(), t.low.front(), t.high.front());
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ EnsembleInputs::EnsembleInputs(const EnsembleRequest& request, const CompareOpti
     : request_(request), options_(options), progress_(progress), replicates_(request.replicates) {
   plan_.version = kVersion;
   for (auto& [name, text] : setting_texts(options)) {
-    const bool changes_values = name != "patch" && name != "causes";
+    const bool changes_values = name != "patch" && name != "causes" && name != "field";
     if (changes_values) plan_.settings.emplace_back(std::move(name), std::move(text));
   }
   plan_.settings.emplace_back("frames", request_.frames);
@@ -265,8 +265,11 @@ CompareInput EnsembleInputs::source() const { return {&template_.molecule, nullp
 CompareInput EnsembleInputs::frame(std::size_t number) {
   frame_ = load(number);
   CompareInput input{&frame_.molecule, nullptr, nullptr, {}};
+  const auto [replicate, place] = plan_.place_of(number);
+  input.fields.group = replicates_[replicate].group;
+  input.fields.replicate = plan_.replicates[replicate].name;
+  input.fields.frame = chosen_[replicate][place];
   if (maps_.given()) {
-    const auto [replicate, place] = plan_.place_of(number);
     map_ = Grid();  // frees the last one first
     map_ = maps_.read(replicate, place);
     input.map = &map_;

@@ -142,6 +142,11 @@ Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
   json["conclusion"] = result.conclusion;
   json["plan"] = Json::parse(plan_text(file.plan()));
   json["options"] = options_json(result.options);
+  if (const auto& field = file.plan().field) {
+    json["field"] = {
+        {"name", field->quantity.name},  {"label", field->quantity.label},      {"kind", field->what},
+        {"reference", field->reference}, {"signed", field->quantity.is_signed}, {"n_together", result.n_together}};
+  }
   json["potential_unit"] = file.plan().potential_unit;
   json["n_vertices"] = file.n_vertices();
   json["area_A2"] = result.area_A2;

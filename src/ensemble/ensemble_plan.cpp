@@ -11,6 +11,7 @@
 #include "io/text/json_values.h"
 #include "matrix/matrix_plan.h"
 #include "matrix/plan_difference.h"
+#include "report/field_json.h"
 #include "statistics/permutations.h"
 
 namespace espdiff {
@@ -64,6 +65,15 @@ FrameSources parse_sources(const Json& json) {
   json.at("include_water").get_to(s.structure.include_water);
   json.at("assembly").get_to(s.structure.assembly);
   return s;
+}
+
+std::string field_differs(const std::optional<FieldDescription>& there, const std::optional<FieldDescription>& here) {
+  const std::string text = differ("the field", there ? there->what : "", here ? here->what : "");
+  if (!text.empty() || !there || !here) return text;
+  const auto same = [](const FieldFile& a, const FieldFile& b) { return a.sha256 == b.sha256; };
+  return std::equal(there->files.begin(), there->files.end(), here->files.begin(), here->files.end(), same)
+             ? ""
+             : "the files of the field " + here->quantity.name + " have changed";
 }
 
 /// Whether sizes fit each other, and their sum is a number of frames.
@@ -136,6 +146,10 @@ std::string plan_text(const EnsemblePlan& plan) {
   if (plan.sources) json["sources"] = sources_json(*plan.sources);
   json["residues"] = plan.residues;
   if (plan.matrix != nullptr) json["matrix"] = {{"plan", plan_json(*plan.matrix)}, {"exact_sample", plan.n_exact}};
+  if (plan.field) {
+    json["field"] = fields_json({*plan.field});
+    json["n_fields"] = plan.n_fields;
+  }
   // A path need not be UTF-8, JSON must be.
   return json.dump(1, ' ', false, Json::error_handler_t::replace);
 }
@@ -166,6 +180,10 @@ EnsemblePlan parse_ensemble_plan(const std::string& text, const std::string& pat
       plan.matrix = std::make_shared<const MatrixPlan>(parse_plan(json.at("matrix").at("plan").dump()));
       plan.n_exact = integer_of<std::size_t>(json.at("matrix").at("exact_sample"));
     }
+    if (json.contains("field")) {
+      plan.field = parse_fields_json(json.at("field")).at(0);
+      plan.n_fields = integer_of<std::size_t>(json.at("n_fields"));
+    }
     if (!holds_together(plan)) throw damaged;
     return plan;
   } catch (const Json::exception&) {
@@ -188,6 +206,7 @@ std::string plan_difference(const EnsemblePlan& there, const EnsemblePlan& here)
     const auto found = settings.find(name);
     if (text.empty()) text = differ("the setting " + name, found == settings.end() ? "" : found->second, value);
   }
+  if (text.empty()) text = field_differs(there.field, here.field);
   if (text.empty()) text = replicates_differ(there, here);
   if (text.empty() && there.template_sha256 != here.template_sha256)
     text = "the template is " + there.template_name + " there and " + here.template_name + " here";

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/structure_options.h"
+#include "field/field_result.h"
 #include "potential/potential_plan.h"
 
 namespace espdiff {
@@ -47,6 +48,9 @@ struct EnsemblePlan {
   std::shared_ptr<const MatrixPlan> matrix{};
   std::optional<FrameSources> sources{};  ///< none where frames came from no file
   std::size_t n_exact = 0;  ///< pairs of the matrix that are compared by themselves too; no value depends on it
+  /// The field whose values these are instead of potentials; its label and unit are `potential` and `potential_unit`.
+  std::optional<FieldDescription> field{};
+  std::size_t n_fields = 0;  ///< of the run, besides the potential; no value depends on it
 
   std::size_t n_frames() const;
   /// In order of their first replicates.

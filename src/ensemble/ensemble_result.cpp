@@ -40,10 +40,11 @@ double mean_abs_between(const std::vector<double>& a, const std::vector<double>&
   return sum / area;
 }
 
-/// The state of an analysis.
+/// The state of an analysis: begin(), test(), finish().
 struct Analysis {
   const EnsembleFile& file;
   EnsembleResult result{};
+  std::unique_ptr<EnsembleColumns> values{};
   std::vector<ReplicateColumns> columns{};
   Means means{};  ///< [replicate][vertex], NaN where not tested
 
@@ -62,8 +63,8 @@ struct Analysis {
       const auto& all = columns[r].columns;
       if (std::any_of(all.begin(), all.end(), [](const SeriesSummary& s) { return std::isfinite(s.inefficiency); }))
         continue;
-      throw InputError("the potentials of replicate " + plan().replicates[r].name + " of " +
-                       plan().replicates[r].group +
+      throw InputError((plan().field ? "values" : "the potentials") + (" of replicate " + plan().replicates[r].name) +
+                       " of " + plan().replicates[r].group +
                        " do not change from frame to frame; are its frames copies of one structure?");
     }
   }
@@ -181,16 +182,47 @@ struct Analysis {
     noise.across = sum / n;
   }
 
-  void test(const Columns& all) {
-    const std::size_t n_first = plan().replicates_of(result.groups[0].name).size();
+  std::size_t n_first_replicates() const { return plan().replicates_of(result.groups[0].name).size(); }
+
+  void begin(const EnsembleOptions& options) {
+    check_complete();
+    result.options = options;
+    result.graph = make_mesh_graph(file.surface().positions, file.surface().triangles);
+    const std::vector<std::size_t> starts = equilibrated_starts(file, options.equilibration);
+    values = std::make_unique<EnsembleColumns>(file, starts);
+    columns = summarize_columns(*values);
+    check_varies();
+    for (const std::string& group : plan().groups()) make_group(group);
+    choose_tested();
+    for (std::size_t r = 0, first = 0; r < starts.size(); first += plan().replicates[r++].n_frames)
+      summarize_replicate(r, first, starts[r]);
+    measure_noise();
+    result.compares = result.groups.size() == 2;
+  }
+
+  void test() {
+    if (result.options.regression)
+      result.regression = EnsembleRegression{
+          *result.options.regression,
+          regress_on_surface(means, result.options.regression->values, result.graph, result.options.test)};
+    if (!result.compares) return;
+    const std::size_t n_first = n_first_replicates();
     const std::size_t n_second = columns.size() - n_first;
     SurfaceTestOptions options = result.options.test;
     options.confidence = 1 - result.options.alpha;
-    result.compares = true;
     result.test = std::min(n_first, n_second) > 1
                       ? test_replicates(means, n_first, result.graph, options)
-                      : test_within_runs(all, columns, n_first, result.tested, result.graph, options);
-    find_significant(n_first);
+                      : test_within_runs(*values, columns, n_first, result.tested, result.graph, options);
+  }
+
+  void finish() {
+    if (result.compares) find_significant(n_first_replicates());
+    summarize_residues();
+    measure_fixed_patches();
+    find_regressed();
+    judge_equilibrium();
+    warn();
+    result.conclusion = conclusion_of(result, plan().potential_unit);
   }
 
   /// Residues with their shares of a patch's area, largest first.
@@ -206,11 +238,9 @@ struct Analysis {
     return residues;
   }
 
-  void regress() {
-    if (!result.options.regression) return;
-    EnsembleRegression regression{
-        *result.options.regression,
-        regress_on_surface(means, result.options.regression->values, result.graph, result.options.test)};
+  void find_regressed() {
+    if (!result.regression) return;
+    EnsembleRegression& regression = *result.regression;
     const SurfaceRegression& surface = regression.surface;
     const std::vector<double>& p = result.options.control == ErrorControl::kTfce ? surface.p_tfce : surface.p_max_t;
     for (SignificantPatch& found : find_patches(p, surface.t, result.options.alpha, result.graph)) {
@@ -225,7 +255,6 @@ struct Analysis {
       patch.patch = std::move(found);
       regression.patches.push_back(std::move(patch));
     }
-    result.regression = std::move(regression);
   }
 
   void find_significant(std::size_t n_first) {
@@ -364,26 +393,55 @@ std::vector<float> where_tested(const std::vector<double>& values, const std::ve
 
 EnsembleResult analyse_ensemble(const EnsembleFile& file, const EnsembleOptions& options) {
   Analysis a{file};
-  a.check_complete();
-  a.result.options = options;
-  a.result.graph = make_mesh_graph(file.surface().positions, file.surface().triangles);
-  const std::vector<std::size_t> starts = equilibrated_starts(file, options.equilibration);
-  const EnsembleColumns columns(file, starts);
-  a.columns = summarize_columns(columns);
-  a.check_varies();
-  for (const std::string& group : file.plan().groups()) a.make_group(group);
-  a.choose_tested();
-  for (std::size_t r = 0, first = 0; r < starts.size(); first += file.plan().replicates[r++].n_frames)
-    a.summarize_replicate(r, first, starts[r]);
-  a.measure_noise();
-  if (a.result.groups.size() == 2) a.test(columns);
-  a.summarize_residues();
-  a.measure_fixed_patches();
-  a.regress();
-  a.judge_equilibrium();
-  a.warn();
-  a.result.conclusion = conclusion_of(a.result, file.plan().potential_unit);
+  a.begin(options);
+  if (file.plan().n_fields > 1)
+    a.result.warnings.push_back(formatted(
+        "family-wise p are over the surface of this field alone, one of %zu; compute the statistics of all of them "
+        "together",
+        file.plan().n_fields));
+  a.test();
+  a.finish();
   return std::move(a.result);
+}
+
+std::vector<FieldStatistics> analyse_fields(const std::vector<const EnsembleFile*>& files,
+                                            const EnsembleOptions& options) {
+  std::vector<FieldStatistics> all(files.size());
+  std::vector<std::unique_ptr<Analysis>> analyses;
+  const auto each = [&](const auto& step) {
+    for (std::size_t k = 0; k < analyses.size(); ++k) {
+      try {
+        if (all[k].why_not.empty()) step(*analyses[k]);
+      } catch (const InputError& error) {
+        all[k].why_not = error.what();
+      }
+    }
+  };
+  for (const EnsembleFile* file : files) analyses.push_back(std::make_unique<Analysis>(Analysis{*file}));
+  EnsembleOptions together = options;
+  each([&](Analysis& a) { a.begin(options); });
+  each([&](Analysis& a) {
+    together.test.least_inefficiency =
+        std::max(together.test.least_inefficiency, inefficiency_of_runs(a.columns, a.result.tested));
+  });
+  std::vector<SurfaceTest*> tests;
+  std::vector<SurfaceRegression*> regressions;
+  each([&](Analysis& a) {
+    a.result.options = together;
+    a.test();
+    if (a.result.compares) tests.push_back(&a.result.test);
+    if (a.result.regression) regressions.push_back(&a.result.regression->surface);
+  });
+  control_together(tests);
+  control_together(regressions);
+  each([&](Analysis& a) {
+    a.result.n_together = std::max(tests.size(), regressions.size());
+    a.finish();
+  });
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    if (all[k].why_not.empty()) all[k].result = std::move(analyses[k]->result);
+  }
+  return all;
 }
 
 }  // namespace espdiff

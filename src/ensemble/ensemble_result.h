@@ -96,7 +96,8 @@ struct EnsembleResult {
   std::vector<GroupColumns> groups;
   std::vector<char> tested;  ///< [vertex]
   double area_A2 = 0, tested_area_A2 = 0, significant_area_A2 = 0;
-  bool compares = false;  ///< two groups; otherwise what follows is empty
+  std::size_t n_together = 1;  ///< fields whose surfaces the family-wise p are over
+  bool compares = false;       ///< two groups; otherwise what follows is empty
   SurfaceTest test;
   NoiseFloor noise;
   std::vector<EnsembleResidue> residues;  ///< of the template
@@ -142,5 +143,17 @@ std::string conclusion_of(const EnsembleResult& result, const std::string& unit)
 /// Computes the statistics of a complete file. The same bits at any number of threads.
 /// @throws InputError (frames are missing; values of a replicate that do not change; no vertex is left to test)
 EnsembleResult analyse_ensemble(const EnsembleFile& file, const EnsembleOptions& options);
+
+/// The statistics of a field, or why there are none.
+struct FieldStatistics {
+  std::optional<EnsembleResult> result;
+  std::string why_not;
+};
+
+/// Computes the statistics of the fields of one run, each as analyse_ensemble() does, but for family-wise p: these are
+/// over the surfaces of all fields together (control_together()). Blocks within runs are those of the field whose
+/// frames tell least, so that all fields exchange the same ones.
+std::vector<FieldStatistics> analyse_fields(const std::vector<const EnsembleFile*>& files,
+                                            const EnsembleOptions& options);
 
 }  // namespace espdiff

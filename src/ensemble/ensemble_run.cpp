@@ -13,6 +13,7 @@
 #include "base/residue_label.h"
 #include "compare/template_mapping.h"
 #include "ensemble/ensemble_file.h"
+#include "field/field_kinds.h"
 #include "io/files/check_outputs.h"
 #include "matrix/matrix_run.h"
 #include "options/options.h"
@@ -69,13 +70,13 @@ double mean_over_area(const std::vector<float>& values, const MeshGraph& graph) 
   return sum / area;
 }
 
-EnsembleFrame numbers_of(const TemplateFrame& frame, const MeshGraph& graph) {
+EnsembleFrame numbers_of(const TemplateFrame& frame, const std::vector<float>& values, const MeshGraph& graph) {
   return {frame.rmsd_A,
           frame.unmatched_template,
           frame.unmatched_frame,
           frame.distance_A,
           frame.same_residue_area_fraction,
-          mean_over_area(frame.potential, graph),
+          mean_over_area(values, graph),
           frame.trustworthy,
           frame.reason};
 }
@@ -97,6 +98,31 @@ void check_kinds(TemplateMapping& mapping, const EnsemblePlan& plan, const Ensem
     }
     before = replicate.group;
     first += replicate.n_frames;
+  }
+}
+
+/// The run's file, then one for each field.
+std::vector<EnsembleFile> open_files(const EnsemblePlan& plan, const TemplateSurface& surface,
+                                     const CompareOptions& options, const EnsembleRun& run, EnsembleReport& report) {
+  report.path = ensemble_path(run.output, run.shard);
+  std::vector<EnsembleFile> files;
+  files.push_back(open_file(report.path, plan, surface, run));
+  for (FieldDescription& field : describe(make_fields(options.fields))) {
+    EnsemblePlan of_field = plan;
+    of_field.n_fields = options.fields.size();
+    of_field.potential = field.quantity.label;
+    of_field.potential_unit = field.quantity.unit;
+    report.field_paths.push_back(ensemble_path(field_prefix(run.output, field.quantity.name), run.shard));
+    of_field.field = std::move(field);
+    files.push_back(open_file(report.field_paths.back(), of_field, surface, run));
+  }
+  return files;
+}
+
+void write_frame(std::vector<EnsembleFile>& files, std::size_t f, const TemplateFrame& frame, const MeshGraph& graph) {
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    const std::vector<float>& values = k == 0 ? frame.potential : frame.fields[k - 1];
+    if (!files[k].has(f)) files[k].write(f, values, numbers_of(frame, values, graph));
   }
 }
 
@@ -125,16 +151,16 @@ EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInpu
   const MeshGraph graph = make_mesh_graph(mapping.surface().positions, mapping.surface().triangles);
   if (plan.potential == "maps") check_kinds(mapping, plan, run, read, progress);
   EnsembleReport report;
-  report.path = ensemble_path(run.output, run.shard);
-  EnsembleFile file = open_file(report.path, plan, mapping.surface(), run);
+  std::vector<EnsembleFile> all = open_files(plan, mapping.surface(), options, run, report);
   const auto [begin, end] = shard_range(plan.n_frames(), run.shard);
   std::vector<std::size_t> missing;
   for (std::size_t f = begin; f < end; ++f) {
-    if (!file.has(f)) missing.push_back(f);
+    const bool is_there = std::all_of(all.begin(), all.end(), [f](const EnsembleFile& file) { return file.has(f); });
+    if (!is_there) missing.push_back(f);
   }
   report.n_frames = end - begin;
   report.n_resumed = report.n_frames - missing.size();
-  report.n_damaged = file.n_damaged();
+  for (const EnsembleFile& file : all) report.n_damaged += file.n_damaged();
   const std::string what = plan.matrix == nullptr ? "frame" : "state";
   const Clock::time_point start = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
@@ -150,7 +176,8 @@ EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInpu
     try {
       inner.report("read", 0.0);
       const TemplateFrame frame = mapping.map(read(f), plan.matrix != nullptr, inner);
-      file.write(f, frame.potential, numbers_of(frame, graph));
+      write_frame(all, f, frame, graph);
+      if (i == 0) report.notes = frame.field_notes;
       add_times(report.time_ms, frame.time_ms);
     } catch (const Cancelled&) {
       throw Error(ErrorClass::kCancelled, "cancelled after " + std::to_string(report.n_resumed + i) + " of " +
@@ -158,15 +185,20 @@ EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInpu
                                               " holds; " + switched_on("resume") + " goes on");
     } catch (const Error& error) {
       if (!run.skip_errors || error.error_class() == ErrorClass::kIo) {
-        if (file.n_done() == 0) fs::remove(report.path);  // nothing is lost
+        for (const EnsembleFile& file : all) {
+          if (file.n_done() == 0) fs::remove(file.path());  // nothing is lost
+        }
         throw Error(error.error_class(), name + ": " + error.message());
       }
-      file.write(f, std::vector<float>(file.n_vertices(), std::numeric_limits<float>::quiet_NaN()),
-                 {kNaN, 1, 1, kNaN, kNaN, kNaN, false, error.what()});
+      for (EnsembleFile& file : all) {
+        if (file.has(f)) continue;
+        file.write(f, std::vector<float>(file.n_vertices(), std::numeric_limits<float>::quiet_NaN()),
+                   {kNaN, 1, 1, kNaN, kNaN, kNaN, false, error.what()});
+      }
       ++report.n_skipped;
     }
   }
-  file.finish();
+  for (EnsembleFile& file : all) file.finish();
   report.seconds = seconds();
   return report;
 }

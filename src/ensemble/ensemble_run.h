@@ -26,6 +26,8 @@ struct EnsembleRun {
 
 struct EnsembleReport {
   std::string path;                                     ///< of the file
+  std::vector<std::string> field_paths;                 ///< [field] of the files of other fields
+  std::vector<std::string> notes;                       ///< on fields: what does not match, of the first frame mapped
   std::size_t n_frames = 0;                             ///< of this run's shard
   std::size_t n_resumed = 0;                            ///< of these, there before
   std::size_t n_damaged = 0;                            ///< that were begun or damaged, and computed again
@@ -34,11 +36,16 @@ struct EnsembleReport {
   std::vector<std::pair<std::string, double>> time_ms;  ///< of the frames computed, by stage
 };
 
+/// OUT.FIELD, the prefix of a field's results.
+inline std::string field_prefix(const std::string& output_prefix, const std::string& field) {
+  return output_prefix + "." + field;
+}
+
 /// OUT.h5, or OUT.shard-2-of-8.h5.
 std::string ensemble_path(const std::string& output_prefix, const Shard& shard);
 
-/// Maps the template onto every frame of the shard that the file lacks. The file is complete for these frames when this
-/// returns; after an error or a cancellation it has all finished ones.
+/// Maps the template onto every frame of the shard that the file, or that of a field (OUT.FIELD.h5), lacks. The files
+/// are complete for these frames when this returns; after an error or a cancellation they have all finished ones.
 /// @param plan     all but residues
 /// @param source   the template
 /// @param read     a frame of all; it lives until the next one is asked for

@@ -2,6 +2,7 @@
 #include "ensemble/ensemble_study.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "base/error.h"
@@ -11,6 +12,7 @@
 #include "ensemble/relabel.h"
 #include "ensemble/template_patches.h"
 #include "ensemble/write_ensemble.h"
+#include "field/field_kinds.h"
 #include "io/files/check_outputs.h"
 #include "options/settings.h"
 #include "prepare/input_files.h"
@@ -26,13 +28,24 @@ std::vector<std::string> inputs_of(const EnsembleStudy& study, std::vector<std::
   const std::vector<std::string> of_settings = input_files(study.options.input);
   files.insert(files.end(), of_settings.begin(), of_settings.end());
   files.push_back(file_of_column(study.regress));
+  for (const FieldRequest& field : study.options.fields) {
+    for (const std::string& path : files_of(field)) files.push_back(path);
+  }
   return files;
 }
 
 /// Results of one group are fewer.
 std::vector<std::string> outputs_of(const EnsembleStudy& study) {
-  return ensemble_outputs(study.run.output,
-                          {true, !study.regress.empty(), study.states, !study.options.causes.empty()});
+  std::vector<std::string> all =
+      ensemble_outputs(study.run.output, {true, !study.regress.empty(), study.states, !study.options.causes.empty()});
+  for (const FieldRequest& field : study.options.fields) {
+    const std::string prefix = field_prefix(study.run.output, field.name);
+    const std::vector<std::string> of_field =
+        ensemble_outputs(prefix, {true, !study.regress.empty(), study.states, false});
+    all.insert(all.end(), of_field.begin(), of_field.end());
+    all.push_back(ensemble_path(prefix, study.run.shard));
+  }
+  return all;
 }
 
 std::string output_of_check(const EnsembleStudy& study, const std::string& group) {
@@ -42,6 +55,42 @@ std::string output_of_check(const EnsembleStudy& study, const std::string& group
 bool is_nonlinear(const PotentialRequest& potential) {
   return std::any_of(potential.given.begin(), potential.given.end(),
                      [](const auto& setting) { return setting.second == "nonlinear"; });
+}
+
+/// The statistics of the fields, all together; one that has none does not take the others' away.
+void test_fields(const EnsembleStudy& study, const std::vector<std::string>& paths, const EnsembleOptions& statistics,
+                 EnsembleAnswer& answer) {
+  std::vector<std::unique_ptr<EnsembleFile>> files;
+  std::vector<const EnsembleFile*> all;
+  for (const std::string& path : paths) {
+    files.push_back(std::make_unique<EnsembleFile>(path, false));
+    if (!study.from.empty() && !study.inputs.replicates.empty()) relabel(*files.back(), study.inputs.replicates);
+    all.push_back(files.back().get());
+  }
+  std::vector<FieldStatistics> found = analyse_fields(all, statistics);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const std::string& name = study.options.fields[k].name;
+    if (found[k].result) {
+      answer.fields.push_back(
+          {name, std::move(files[k]), std::make_unique<EnsembleResult>(std::move(*found[k].result))});
+    } else {
+      answer.result->warnings.push_back("field " + name + " was not tested: " + found[k].why_not);
+    }
+  }
+}
+
+/// The files of fields beside that of a run. @throws InputError (it has no such field)
+std::vector<std::string> field_files_beside(const std::string& path, const std::vector<FieldRequest>& fields) {
+  std::vector<std::string> paths;
+  const std::string prefix = path.substr(0, path.rfind(".h5"));
+  for (const FieldRequest& field : fields) {
+    paths.push_back(ensemble_path(field_prefix(prefix, field.name), {}));
+    if (!std::filesystem::exists(paths.back()))
+      throw InputError(paths.back() + ": no such file; " + option("from", path) + " with " +
+                       option("field", field.name) +
+                       " reads the field's values there, and only a run that maps makes it");
+  }
+  return paths;
 }
 
 /// A study while it runs.
@@ -80,6 +129,9 @@ class Study {
     progress_.report("statistics", 1.0);
     answer.result = std::make_unique<EnsembleResult>(analyse_ensemble(*answer.file, statistics));
     EnsembleResult& result = *answer.result;
+    result.warnings.insert(result.warnings.end(), answer.reports.back().notes.begin(),
+                           answer.reports.back().notes.end());
+    test_fields(study_, answer.reports.back().field_paths, statistics, answer);
     if (!study_.options.causes.empty()) {
       result.causes = find_ensemble_causes(
           engine, inputs_.source(), study_.options, *answer.file, result,
@@ -89,11 +141,13 @@ class Study {
   }
 
  private:
-  void map(Engine& engine, const EnsembleRun& run, EnsembleAnswer& answer) {
+  void map(Engine& engine, const EnsembleRun& run, EnsembleAnswer& answer, bool with_fields = true) {
     EnsemblePlan plan = inputs_.plan();
     plan.device = engine.back_end();
+    CompareOptions options = study_.options;
+    if (!with_fields) options.fields.clear();
     answer.reports.push_back(run_ensemble(
-        engine, plan, inputs_.source(), study_.options, run, [this](std::size_t frame) { return inputs_.frame(frame); },
+        engine, plan, inputs_.source(), options, run, [this](std::size_t frame) { return inputs_.frame(frame); },
         progress_));
   }
 
@@ -103,7 +157,7 @@ class Study {
       EnsembleRun part = study_.run;
       part.output = output_of_check(study_, group);
       inputs_.choose_template("medoid:" + group, part.skip_errors, progress_);
-      map(engine, part, answer);
+      map(engine, part, answer, false);
       const EnsembleFile other(answer.reports.back().path, false);
       const EnsembleResult result = analyse_ensemble(other, study_.statistics);
       answer.result->template_checks.push_back(
@@ -121,6 +175,7 @@ class Study {
 void open_earlier(const EnsembleStudy& study, const std::function<std::unique_ptr<Engine>()>& make_engine,
                   const Progress& progress, const std::function<void(const Message&)>& warn, EnsembleAnswer& answer) {
   check_outputs(inputs_of(study, {study.from}), outputs_of(study));
+  const std::vector<std::string> of_fields = field_files_beside(study.from, study.options.fields);
   answer.file = std::make_unique<EnsembleFile>(study.from, false);
   std::unique_ptr<EarlierRun> run;
   if (!study.options.causes.empty()) {
@@ -134,6 +189,7 @@ void open_earlier(const EnsembleStudy& study, const std::function<std::unique_pt
   if (!study.regress.empty()) statistics.regression = read_regression_column(study.regress, answer.file->plan());
   progress.report("statistics", 1.0);
   answer.result = std::make_unique<EnsembleResult>(analyse_ensemble(*answer.file, statistics));
+  test_fields(study, of_fields, statistics, answer);
   if (!run) return;
   const std::unique_ptr<Engine> engine = make_engine();
   answer.device = engine->description();
@@ -174,6 +230,12 @@ EnsembleAnswer run_study(const EnsembleStudy& study, const std::function<std::un
   EnsembleResult& result = *answer.result;
   if (study.states) result.states = compare_states(*answer.file, result);
   answer.written = write_ensemble(study.run.output, *answer.file, result);
+  for (FieldAnswer& field : answer.fields) {
+    if (study.states) field.result->states = compare_states(*field.file, *field.result);
+    const std::string prefix = field_prefix(study.run.output, field.name);
+    const std::vector<std::string> paths = write_ensemble(prefix, *field.file, *field.result);
+    answer.written.insert(answer.written.end(), paths.begin(), paths.end());
+  }
   return answer;
 }
 

@@ -27,9 +27,17 @@ struct EnsembleStudy {
   std::string regress;                  ///< FILE.csv:COLUMN; see read_regression_column()
   bool check_template = false;          ///< also through the medoid of each group
   bool states = false;                  ///< also each frame with each other one
-  std::string from;                     ///< a complete file: its statistics, without mapping; replicates of
-                                        ///< `inputs` are then its members, see relabel()
+  std::string from;                     ///< a complete file: its statistics, without mapping, and those of the
+                                        ///< files of fields beside it; replicates of `inputs` are then its members,
+                                        ///< see relabel()
   std::vector<std::string> read_files;  ///< further files that no output may replace, such as a list
+};
+
+/// A field besides the potential: its file, and its statistics, which are those of an ensemble of its own.
+struct FieldAnswer {
+  std::string name;
+  std::unique_ptr<EnsembleFile> file;
+  std::unique_ptr<EnsembleResult> result;
 };
 
 /// What came out. A shard has a report only.
@@ -38,6 +46,7 @@ struct EnsembleAnswer {
   std::string device;                   ///< in words; empty where nothing was mapped
   std::unique_ptr<EnsembleFile> file;
   std::unique_ptr<EnsembleResult> result;
+  std::vector<FieldAnswer> fields;  ///< that could be tested
   std::vector<std::string> written;
 
   EnsembleAnswer();

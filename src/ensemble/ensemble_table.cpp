@@ -49,8 +49,11 @@ const char* of_runs(const EnsembleResult& result) {
   return of_states ? "" : " (of these runs, not of the states)";
 }
 
+/// " (kT/e)"; nothing for a field without a unit.
+std::string in_brackets(const std::string& unit) { return unit.empty() ? "" : " (" + unit + ")"; }
+
 void print_noise(std::ostream& out, const EnsembleResult& result, const std::string& unit) {
-  out << "\nmean absolute difference over the tested surface (" << unit << ")\n";
+  out << "\nmean absolute difference over the tested surface" << in_brackets(unit) << '\n';
   if (result.compares) {
     const SurfaceTest& test = result.test;
     const std::string groups = result.groups[1].name + " - " + result.groups[0].name;
@@ -73,7 +76,7 @@ void print_noise(std::ostream& out, const EnsembleResult& result, const std::str
 
 void print_fixed_patches(std::ostream& out, const EnsembleResult& result, const std::string& unit) {
   if (result.fixed_patches.empty()) return;
-  out << "\nfixed patches (" << unit << ")\n";
+  out << "\nfixed patches" << in_brackets(unit) << '\n';
   const PlaceTests& t = result.fixed_patch_tests;
   for (std::size_t k = 0; k < result.fixed_patches.size(); ++k) {
     const FixedPatch& patch = result.fixed_patches[k];
@@ -111,7 +114,7 @@ void print_patches(std::ostream& out, const EnsembleResult& result, const std::s
       of_runs(result), result.options.alpha, result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t",
       result.test.smallest_p);
   if (result.patches.empty()) return;
-  out << formatted("%-6s %9s %12s %20s %8s  %s\n", "patch", "area (A2)", ("diff. (" + unit + ")").c_str(),
+  out << formatted("%-6s %9s %12s %20s %8s  %s\n", "patch", "area (A2)", ("diff." + in_brackets(unit)).c_str(),
                    formatted("%.0f %% interval", confidence).c_str(), "p", "residues");
   constexpr std::size_t kMost = 10;
   for (std::size_t k = 0; k < std::min(kMost, result.patches.size()); ++k) {
@@ -139,8 +142,8 @@ void print_regression(std::ostream& out, const EnsembleResult& result, const std
                    result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t", surface.smallest_p);
   for (std::size_t k = 0; k < std::min<std::size_t>(10, regression.patches.size()); ++k) {
     const EnsembleRegression::Patch& patch = regression.patches[k];
-    out << formatted("  %-4zu %8.1f A2  r %6.3f  %.3g %s per unit, p %.3g  %.40s\n", k + 1, patch.patch.area,
-                     patch.correlation, patch.slope, unit.c_str(), patch.smallest_p,
+    out << formatted("  %-4zu %8.1f A2  r %6.3f  %.3g%s per unit, p %.3g  %.40s\n", k + 1, patch.patch.area,
+                     patch.correlation, patch.slope, (unit.empty() ? "" : " " + unit).c_str(), patch.smallest_p,
                      main_residues(patch.residues).c_str());
   }
 }
@@ -203,7 +206,9 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
   out << broken("conclusion   " + result.conclusion) << "\n\n";
   out << formatted("template     %s, %zu vertices, %.1f A2\n", file.plan().template_name.c_str(), file.n_vertices(),
                    result.area_A2);
-  out << formatted("potential    %.70s\n", file.plan().potential.c_str());
+  out << formatted(file.plan().field ? "field        %.70s\n" : "potential    %.70s\n", file.plan().potential.c_str());
+  if (result.n_together > 1)
+    out << formatted("family       p is family-wise over the surfaces of %zu fields together\n", result.n_together);
   if (result.compares && result.test.inference == Inference::kReplicates)
     out << formatted("inference    of the states: Welch's t of replicates' means; labels exchanged in %s%zu ways\n",
                      result.test.exact ? "all " : "", result.test.n_permutations);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 /// "wild_1" of "runs/wild_1.pdb.gz".
 std::string name_of_file(const std::string& path) {
   const std::string name = fs::path(path).filename().string();
-  return name.substr(0, name.find('.'));
+  return name.substr(0, name.find('.', 1));  // a hidden file's first dot is part of its name
 }
 
 /// run1/md.dcd and run2/md.dcd become "run1/md" and "run2/md".

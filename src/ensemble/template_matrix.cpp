@@ -99,7 +99,8 @@ EnsemblePlan plan_of(const MatrixPlan& matrix, const Template& chosen, const Tem
   plan.version = matrix.version;
   plan.device = matrix.device;
   for (auto& [name, text] : setting_texts(request.options)) {
-    if (name != "patch") plan.settings.emplace_back(name, std::move(text));  // changes no value of the file
+    if (name != "patch" && name != "field")
+      plan.settings.emplace_back(name, std::move(text));  // changes no value of the file
   }
   plan.potential = matrix.potential;
   plan.potential_unit = matrix.potential_unit;

@@ -37,8 +37,10 @@ void write_surface(std::ostream& out, const EnsembleFile& file, const EnsembleRe
     vtp.point_arrays.emplace_back(name, *kept.back());
   };
   const std::vector<std::string> sides = {"source", "target"};
+  const auto& field = file.plan().field;
+  const std::string quantity = field ? field->quantity.name : "potential";
   for (std::size_t g = 0; g < result.groups.size(); ++g) {
-    add("potential_" + sides[g], result.groups[g].mean);
+    add(quantity + "_" + sides[g], result.groups[g].mean);
     add("deviation_" + sides[g], result.groups[g].deviation);
     add("effective_samples_" + sides[g], result.groups[g].effective);
     kept.push_back(
@@ -49,7 +51,7 @@ void write_surface(std::ostream& out, const EnsembleFile& file, const EnsembleRe
   const std::vector<std::int32_t> patch = patch_numbers(result);
   if (result.compares) {
     const PlaceTests& t = result.test.vertices;
-    add("potential_difference", t.difference);
+    add(quantity + "_difference", t.difference);
     add("difference_low", t.low);
     add("difference_high", t.high);
     add("standard_error", t.error);
@@ -61,9 +63,9 @@ void write_surface(std::ostream& out, const EnsembleFile& file, const EnsembleRe
     add("p_family_wise", result.family_wise());
     vtp.point_arrays.emplace_back("patch", patch);
     vtp.texts.emplace_back("alpha", csv_number(result.options.alpha));
-    vtp.active_scalars = "potential_difference";
+    vtp.active_scalars = quantity + "_difference";
   } else {
-    vtp.active_scalars = "potential_source";
+    vtp.active_scalars = quantity + "_source";
   }
   if (result.regression) {
     const SurfaceRegression& r = result.regression->surface;
@@ -85,7 +87,13 @@ void write_surface(std::ostream& out, const EnsembleFile& file, const EnsembleRe
     untested.push_back(any ? 1 : 0);
   }
   vtp.cell_arrays = {{"untested", untested}};
-  vtp.texts.emplace_back("potential_unit", file.plan().potential_unit);
+  if (field) {
+    vtp.texts.emplace_back(quantity + "_label", field->quantity.label);
+    vtp.texts.emplace_back(quantity + "_signed", field->quantity.is_signed ? "1" : "0");
+    if (!field->quantity.unit.empty()) vtp.texts.emplace_back(quantity + "_unit", field->quantity.unit);
+  } else {
+    vtp.texts.emplace_back("potential_unit", file.plan().potential_unit);
+  }
   vtp.texts.emplace_back("written_by", std::string("espdiff ") + kVersion + " ensemble");
   vtp.active_normals = "normal";
   write_vtp(out, vtp);

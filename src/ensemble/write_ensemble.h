@@ -26,11 +26,12 @@ std::vector<std::string> ensemble_outputs(const std::string& output_prefix, cons
 
 /// Writes all outputs, or none. The bytes depend on the file's columns and the options only.
 ///
-/// OUT.vtp: the template with means (`potential_source` is the first group's, `potential_target` the second's),
-/// `potential_difference`, its interval, standard error, t, p, `p_max_t`, `p_tfce`, effective samples, shares of frames
-/// with a counterpart, `patch` (from 1; 0: none). Of a regression: `regression_correlation`, `regression_slope`,
-/// `regression_t`, `regression_p_max_t`, `regression_p_tfce`. `untested` marks triangles with a vertex that was not
-/// tested.
+/// Of a field, `potential` in the arrays' names is the field's name, and the texts NAME_label, NAME_unit and
+/// NAME_signed say what it is. OUT.vtp: the template with means (`potential_source` is the first group's,
+/// `potential_target` the second's), `potential_difference`, its interval, standard error, t, p, `p_max_t`, `p_tfce`,
+/// effective samples, shares of frames with a counterpart, `patch` (from 1; 0: none). Of a regression:
+/// `regression_correlation`, `regression_slope`, `regression_t`, `regression_p_max_t`, `regression_p_tfce`. `untested`
+/// marks triangles with a vertex that was not tested.
 /// @returns the files' names
 /// @throws IoError
 std::vector<std::string> write_ensemble(const std::string& output_prefix, const EnsembleFile& file,

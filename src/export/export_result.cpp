@@ -77,11 +77,11 @@ std::string without_ending(const std::string& path, const std::string& ending) {
   return has_it ? path.substr(0, path.size() - ending.size()) : path;
 }
 
-void check_inputs(const std::string& prefix, const std::vector<std::string>& outputs) {
+void check_inputs(const std::string& prefix, const std::vector<std::string>& outputs, bool overwrite) {
   const RunRecord record = read_run_record(prefix + ".vtp");
   check_outputs({prefix + ".json", prefix + ".vtp", prefix + ".residues.csv", record.source.path, record.target.path,
                  record.source_map.path, record.target_map.path},
-                outputs);
+                outputs, overwrite);
 }
 
 }  // namespace
@@ -124,7 +124,7 @@ std::vector<std::string> export_result(const std::string& prefix, const ExportFo
   formats.insert(formats.end(), format.loads.begin(), format.loads.end());
   for (std::size_t i = 1; i < outputs.size(); ++i)
     loaded.push_back(std::filesystem::path(outputs[i]).filename().string());
-  check_inputs(prefix, outputs);
+  check_inputs(prefix, outputs, options.overwrite);
   std::optional<ExportedMolecule> molecule;
   for (const std::string& one : formats) {
     if (has_molecule(one) && !molecule) molecule = read_exported_molecule(result);

@@ -30,7 +30,7 @@ std::vector<std::string> export_outputs(const std::string& prefix, const ExportF
 /// @param prefix OUT of the comparison
 /// @returns export_outputs()
 /// @throws as read_exported_result(), read_exported_molecule(), write_script(), write_pdb(); InputError (an output that
-///         is an input), IoError
+///         is an input, or is there), IoError
 std::vector<std::string> export_result(const std::string& prefix, const ExportFormat& format, const std::string& output,
                                        const ExportOptions& options);
 

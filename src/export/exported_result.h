@@ -17,6 +17,7 @@ struct ExportOptions {
   double limit = 0;      ///< end of the colour scale of the surface; 0: automatic (automatic_limit())
   std::string colours = "red-blue";  ///< diverging_map()'s names
   std::string title;                 ///< empty: the names of both structures
+  bool overwrite = true;             ///< whether files of these names may be replaced
 };
 
 /// A colour scale: `limit` is its end, and for signed values `-limit` its beginning, otherwise 0.

@@ -23,14 +23,14 @@ namespace {
 using EnsembleJson = nlohmann::ordered_json;
 
 struct EnsembleQuantity {
-  const char *array, *label;  ///< "{source}" and "{target}" stand for the groups' names, "{confidence}" for 95
+  const char *array, *label;  ///< as EnsembleNames fills them
   bool is_potential, is_signed;
 };
 
 constexpr EnsembleQuantity kEnsembleQuantities[] = {
     {"potential_difference", "Difference, {target} - {source}", true, true},
-    {"potential_source", "Mean potential of {source}", true, true},
-    {"potential_target", "Mean potential of {target}", true, true},
+    {"potential_source", "Mean {quantity} of {source}", true, true},
+    {"potential_target", "Mean {quantity} of {target}", true, true},
     {"p_family_wise", "Family-wise p", false, false},
     {"difference_low", "Difference, lower end of the {confidence} % interval", true, true},
     {"difference_high", "Difference, upper end of the {confidence} % interval", true, true},
@@ -78,7 +78,8 @@ EnsembleFiles read_files(const std::string& prefix) {
 void add_quantities(EnsembleJson& page, PageArrays& arrays, const EnsembleFiles& files) {
   page["quantities"] = EnsembleJson::array();
   for (const EnsembleQuantity& usual : kEnsembleQuantities) {
-    const VtpNumbers* const array = find_array(files.surface.point_arrays, usual.array);
+    const VtpNumbers* const array =
+        find_array(files.surface.point_arrays, files.names.of_quantity(usual.array).c_str());
     if (array == nullptr || array->n_components != 1) continue;
     page["quantities"].push_back(page_quantity(arrays, *array, files.names.filled(usual.label),
                                                usual.is_potential ? files.names.unit : "", usual.is_signed));
@@ -116,7 +117,8 @@ void add_surface(EnsembleJson& page, PageArrays& arrays, const EnsembleFiles& fi
       {"potential_source", files.names.source},
       {"potential_target", files.names.target},
       {"potential_difference", files.names.target + " - " + files.names.source}};
-  for (const auto& [name, label] : linked) page["linked"].push_back(EnsembleJson::array({name, label}));
+  for (const auto& [name, label] : linked)
+    page["linked"].push_back(EnsembleJson::array({files.names.of_quantity(name), label}));
 }
 
 /// The mean of each patch in each frame, and which frames are whose.
@@ -153,7 +155,7 @@ EnsembleJson page_of(const EnsembleFiles& files, const std::string& title, PageA
   const std::string states = files.compares() ? names.target + " against " + names.source : names.source;
   EnsembleJson page = {
       {"kind", "ensemble"},
-      {"title", title.empty() ? states : title},
+      {"title", title.empty() ? files.names.title(states) : title},
       {"states", files.compares() ? "Groups of simulations: " + names.source + " and " + names.target +
                                         ". Differences are " + names.target + " - " + names.source + '.'
                                   : "One group of simulations: " + names.source + '.'}};

@@ -104,7 +104,7 @@ TableJson regression_rows(const TableJson& record) {
   add_row(rows, "Q2", "Of each replicate, predicted from the others; 1 is perfect, 0 as good as their mean",
           short_number(regression, "q2"));
   add_row(rows, "p of Q2", "Share of exchanged values that reach it", short_number(regression, "q2_p"));
-  add_row(rows, "Significant patches", "Where the potential goes with the value",
+  add_row(rows, "Significant patches", "Where the surface goes with the value",
           std::to_string(regression.at("patches").size()));
   return rows;
 }
@@ -137,8 +137,11 @@ TableJson cause_table(const TableJson& reading, const EnsembleNames& names) {
 }  // namespace
 
 std::string EnsembleNames::filled(const std::string& label) const {
-  const std::pair<std::string, const std::string&> parts[] = {
-      {"{source}", source}, {"{target}", target}, {"{regressed}", regressed}, {"{confidence}", confidence}};
+  const std::pair<std::string, const std::string&> parts[] = {{"{source}", source},
+                                                              {"{target}", target},
+                                                              {"{regressed}", regressed},
+                                                              {"{quantity}", quantity},
+                                                              {"{confidence}", confidence}};
   std::string out;
   for (std::size_t i = 0; i < label.size();) {
     bool is_part = false;
@@ -154,6 +157,12 @@ std::string EnsembleNames::filled(const std::string& label) const {
   return out;
 }
 
+std::string EnsembleNames::of_quantity(const std::string& array_of_potential) const {
+  const std::string ending = "potential_";
+  if (field.empty() || array_of_potential.rfind(ending, 0) != 0) return array_of_potential;
+  return field + array_of_potential.substr(ending.size() - 1);
+}
+
 EnsembleNames names_of(const TableJson& record, const VtpContent& surface) {
   EnsembleNames names;
   for (const auto& [name, text] : surface.texts) {
@@ -162,6 +171,10 @@ EnsembleNames names_of(const TableJson& record, const VtpContent& surface) {
   }
   names.unit = record.at("potential_unit").get<std::string>();
   names.confidence = csv_number(100 * record.at("options").at("confidence").get<double>(), 4);
+  if (record.contains("field")) {
+    names.field = record.at("field").at("name").get<std::string>();
+    names.quantity = record.at("field").at("label").get<std::string>();
+  }
   if (record.contains("regression")) names.regressed = record.at("regression").at("column").get<std::string>();
   return names;
 }
@@ -266,7 +279,7 @@ TableJson ensemble_provenance(const TableJson& record) {
   rows.push_back({"Program", "espdiff " + version + ", on " + plan.at("device").get<std::string>()});
   rows.push_back({"Template", plan.at("template").at("name").get<std::string>() + ", SHA-256 " +
                                   plan.at("template").at("sha256").get<std::string>()});
-  rows.push_back({"Potential", plan.at("potential").get<std::string>()});
+  rows.push_back({plan.contains("field") ? "Field" : "Potential", plan.at("potential").get<std::string>()});
   const TableJson all_charges = plan.value("charges", TableJson::object());
   for (const auto& [group, charges] : all_charges.items())
     rows.push_back({"Charges: " + group, charges.is_string() ? charges.get<std::string>() : charges.dump()});

@@ -11,10 +11,16 @@ namespace espdiff {
 
 /// How the groups are called; empty names where there is no second group.
 struct EnsembleNames {
-  std::string source, target, unit, regressed, confidence;  ///< unit of potentials; confidence in per cent
+  std::string source, target, unit, regressed, confidence;  ///< unit of the values; confidence in per cent
+  std::string field;                                        ///< its name; empty for the potential
+  std::string quantity = "potential";                       ///< in words
 
-  /// A label whose "{source}", "{target}", "{regressed}" and "{confidence}" are replaced.
+  /// A label whose "{source}", "{target}", "{regressed}", "{quantity}" and "{confidence}" are replaced.
   std::string filled(const std::string& label) const;
+  /// The array of the field that is there in place of the potential's, such as "potential_source".
+  std::string of_quantity(const std::string& array_of_potential) const;
+  /// The states, and the field where there is one.
+  std::string title(const std::string& states) const { return field.empty() ? states : states + ": " + quantity; }
 };
 
 EnsembleNames names_of(const nlohmann::ordered_json& record, const VtpContent& surface);

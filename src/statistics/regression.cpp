@@ -191,19 +191,20 @@ SurfaceRegression regress_on_surface(const std::vector<std::vector<double>>& mea
     result.slope.push_back(std::isfinite(result.t[v]) ? data.slope(v, result.correlation[v]) : kNaN);
     result.p.push_back(student_p(result.t[v], static_cast<double>(data.values().size()) - 2));
   }
-  std::vector<double> max_t(orders.all.size()), max_tfce(orders.all.size()), q2(orders.all.size());
+  result.maxima = {std::vector<double>(orders.all.size()), std::vector<double>(orders.all.size())};
+  std::vector<double> q2(orders.all.size());
   const CancelRequest cancel;
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t k = 0; k < orders.all.size(); ++k) {
     if (cancel.made()) continue;
     const std::vector<double> t = data.t_of(data.correlations(orders.all[k]));
-    max_t[k] = largest_magnitude(t);
-    max_tfce[k] = largest_magnitude(enhance_clusters(t, graph));
+    result.maxima.t[k] = largest_magnitude(t);
+    result.maxima.tfce[k] = largest_magnitude(enhance_clusters(t, graph));
     q2[k] = data.q2(orders.all[k]);
   }
   cancel.check();
-  result.p_max_t = shares_at_least(max_t, result.t, result.t);
-  result.p_tfce = shares_at_least(max_tfce, result.tfce, result.t);
+  result.p_max_t = shares_at_least(result.maxima.t, result.t, result.t);
+  result.p_tfce = shares_at_least(result.maxima.tfce, result.tfce, result.t);
   result.q2 = q2.front();
   const double limit = result.q2 - 1e-9 * std::fabs(result.q2);
   result.q2_p = static_cast<double>(std::count_if(q2.begin(), q2.end(), [&](double q) { return q >= limit; })) /

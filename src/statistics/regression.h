@@ -12,7 +12,8 @@ namespace espdiff {
 struct SurfaceRegression {
   std::vector<double> correlation, slope, t, p;  ///< [vertex] Pearson's; slope: of the column, per unit of the value
   std::vector<double> tfce;                      ///< scores of t
-  std::vector<double> p_max_t, p_tfce;           ///< family-wise over the surface; NaN where not tested
+  NullMaxima maxima;
+  std::vector<double> p_max_t, p_tfce;  ///< family-wise over the surface; NaN where not tested
   std::size_t n_permutations = 0;
   bool exact = true;              ///< all orders of the values
   double smallest_p = 1;          ///< that these orders allow
@@ -36,5 +37,8 @@ constexpr std::size_t kFewestValues = 4;
 /// @throws InputError (fewer than kFewestValues values, or all of them equal)
 SurfaceRegression regress_on_surface(const std::vector<std::vector<double>>& means, const std::vector<double>& values,
                                      const MeshGraph& graph, const SurfaceTestOptions& options);
+
+/// As for tests of groups: the same orders of the same values.
+void control_together(const std::vector<SurfaceRegression*>& regressions);
 
 }  // namespace espdiff

@@ -31,11 +31,17 @@ struct PlaceTests {
   std::vector<double> difference, error, degrees, t, p, low, high;  ///< p: of each place alone; low to high: interval
 };
 
+/// [permutation] the largest magnitudes on the surface, the observed labels first.
+struct NullMaxima {
+  std::vector<double> t, tfce;
+};
+
 /// A comparison over the surface.
 struct SurfaceTest {
   Inference inference = Inference::kReplicates;
   PlaceTests vertices;
-  std::vector<double> tfce;             ///< scores
+  std::vector<double> tfce;  ///< scores
+  NullMaxima maxima;
   std::vector<double> p_max_t, p_tfce;  ///< family-wise over the surface; NaN where not tested
   std::size_t n_permutations = 0;
   bool exact = true;                         ///< all permutations
@@ -55,6 +61,8 @@ struct SurfaceTestOptions {
   double confidence = 0.95;
   std::uint64_t max_permutations = 10000;
   std::uint64_t seed = 20221;
+  /// Of blocks within runs, which are made for this statistical inefficiency at least.
+  double least_inefficiency = 1;
 };
 
 /// Exchanges the labels of replicates. Statistic: Welch's t of the replicates' means. Its p-values are the shares of
@@ -76,6 +84,16 @@ SurfaceTest test_replicates(const std::vector<std::vector<double>>& means, std::
 SurfaceTest test_within_runs(const Columns& columns, const std::vector<ReplicateColumns>& replicates,
                              std::size_t n_first, const std::vector<char>& tested, const MeshGraph& graph,
                              const SurfaceTestOptions& options);
+
+/// The statistical inefficiency that blocks within runs are made for: the ninth decile over the tested vertices, of the
+/// run where it is largest; 1 without a value.
+double inefficiency_of_runs(const std::vector<ReplicateColumns>& replicates, const std::vector<char>& tested);
+
+/// Family-wise p over the surfaces of several tests together: the share of permutations whose largest |t|, or TFCE
+/// score, on any of the surfaces is at least the vertex' own (the maximum over modalities, Winkler et al. 2016, Hum.
+/// Brain Mapp. 37:1486). The tests exchange the same labels of the same replicates or blocks; those without p are left
+/// alone.
+void control_together(const std::vector<SurfaceTest*>& tests);
 
 /// Compares area-weighted means over sets of vertices, such as residues or patches, by Welch's test of replicates, or
 /// of the blocks of runs.

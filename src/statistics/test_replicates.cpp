@@ -112,19 +112,20 @@ SurfaceTest test_replicates(const Means& means, std::size_t n_first, const MeshG
     add_place(test.vertices, welch_test(split.first, split.second), options.confidence);
   }
   test.tfce = enhance_clusters(test.vertices.t, graph);
-  std::vector<double> max_t(all.orders.size()), max_tfce(all.orders.size()), differences(all.orders.size());
+  test.maxima = {std::vector<double>(all.orders.size()), std::vector<double>(all.orders.size())};
+  std::vector<double> differences(all.orders.size());
   const CancelRequest cancel;
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t k = 0; k < all.orders.size(); ++k) {
     if (cancel.made()) continue;
     const Maps maps = maps_of(means, all.orders[k], n_first);
-    max_t[k] = largest_magnitude(maps.t);
-    max_tfce[k] = largest_magnitude(enhance_clusters(maps.t, graph));
+    test.maxima.t[k] = largest_magnitude(maps.t);
+    test.maxima.tfce[k] = largest_magnitude(enhance_clusters(maps.t, graph));
     differences[k] = mean_abs(maps.difference, graph);
   }
   cancel.check();
-  test.p_max_t = shares_at_least(max_t, test.vertices.t, test.vertices.t);
-  test.p_tfce = shares_at_least(max_tfce, test.tfce, test.vertices.t);
+  test.p_max_t = shares_at_least(test.maxima.t, test.vertices.t, test.vertices.t);
+  test.p_tfce = shares_at_least(test.maxima.tfce, test.tfce, test.vertices.t);
   test.mean_abs_difference = differences.front();
   std::sort(differences.begin(), differences.end());
   test.mean_abs_difference_p = share_at_least(differences, test.mean_abs_difference);

@@ -21,27 +21,10 @@ constexpr std::size_t kLeastBlocks = 4, kMostBlocks = 7;
 /// Of a run that is longer than the shortest one, whose blocks are as long as there.
 constexpr std::size_t kMostBlocksOfLonger = 70;
 
-/// Ninth decile over the tested vertices; that of the run whose frames tell least. 1 without a value.
-double largest_inefficiency(const std::vector<ReplicateColumns>& replicates, const std::vector<char>& tested) {
-  double largest = 1;
-  for (const ReplicateColumns& replicate : replicates) {
-    std::vector<double> g;
-    for (std::size_t v = 0; v < tested.size(); ++v) {
-      if (tested[v] != 0 && std::isfinite(replicate.columns[v].inefficiency))
-        g.push_back(replicate.columns[v].inefficiency);
-    }
-    if (g.empty()) continue;
-    const auto decile = g.begin() + static_cast<std::ptrdiff_t>(g.size() * 9 / 10);
-    std::nth_element(g.begin(), decile, g.end());
-    largest = std::max(largest, *decile);
-  }
-  return largest;
-}
-
 /// Blocks of one length for all runs, so that they can be exchanged.
-RunBlocks choose_blocks(const std::vector<ReplicateColumns>& replicates, const std::vector<char>& tested) {
+RunBlocks choose_blocks(const std::vector<ReplicateColumns>& replicates, double inefficiency) {
   RunBlocks blocks;
-  blocks.inefficiency = largest_inefficiency(replicates, tested);
+  blocks.inefficiency = inefficiency;
   blocks.gap = static_cast<std::size_t>(std::ceil(blocks.inefficiency));
   const auto least_length = static_cast<std::size_t>(std::ceil(2 * blocks.inefficiency));
   blocks.least_frames = kLeastBlocks * (least_length + blocks.gap) - blocks.gap;
@@ -120,10 +103,27 @@ SurfaceTest without_p(std::size_t n, const RunBlocks& blocks) {
 
 }  // namespace
 
+double inefficiency_of_runs(const std::vector<ReplicateColumns>& replicates, const std::vector<char>& tested) {
+  double largest = 1;
+  for (const ReplicateColumns& replicate : replicates) {
+    std::vector<double> g;
+    for (std::size_t v = 0; v < tested.size(); ++v) {
+      if (tested[v] != 0 && std::isfinite(replicate.columns[v].inefficiency))
+        g.push_back(replicate.columns[v].inefficiency);
+    }
+    if (g.empty()) continue;
+    const auto decile = g.begin() + static_cast<std::ptrdiff_t>(g.size() * 9 / 10);
+    std::nth_element(g.begin(), decile, g.end());
+    largest = std::max(largest, *decile);
+  }
+  return largest;
+}
+
 SurfaceTest test_within_runs(const Columns& columns, const std::vector<ReplicateColumns>& replicates,
                              std::size_t n_first, const std::vector<char>& tested, const MeshGraph& graph,
                              const SurfaceTestOptions& options) {
-  const RunBlocks blocks = choose_blocks(replicates, tested);
+  const RunBlocks blocks =
+      choose_blocks(replicates, std::max(options.least_inefficiency, inefficiency_of_runs(replicates, tested)));
   const bool enough = *std::min_element(blocks.n.begin(), blocks.n.end()) >= kLeastBlocks;
   std::vector<std::vector<double>> means;
   std::size_t n_first_blocks = 0;

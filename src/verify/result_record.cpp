@@ -130,6 +130,7 @@ std::optional<RecordedInput> ResultRecord::input(const std::string& role) const 
     if (!entry.is_object() || text_of(entry, "role") != role) continue;
     RecordedInput input;
     const std::filesystem::path recorded = text_of(entry, "path");
+    if (recorded.empty()) return std::nullopt;
     const std::filesystem::path beside = std::filesystem::path(path_).parent_path() / recorded.filename();
     std::error_code ignored;
     input.path = (std::filesystem::exists(recorded, ignored) ? recorded : beside).string();

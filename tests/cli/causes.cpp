@@ -104,7 +104,7 @@ TEST_CASE("causes: bars are drawn of any file of the result; one without causes 
   REQUIRE(files.run("--potential coulomb --region '//A/1-3' --causes region --causes whole").status == 0);
   const std::string svg = files.folder.file("bars.svg");
   for (const char* name : {"out", "out.json", "out.vtp", "out.causes.csv"}) {
-    const Outcome outcome = run_espdiff("plot " + files.folder.file(name) + " --causes -o " + svg);
+    const Outcome outcome = run_espdiff("plot " + files.folder.file(name) + " --causes --overwrite -o " + svg);
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
     const std::string text = read_file(svg);
     for (const char* word : {"region: ", "whole: ", "SER 3 A, substituted", "kT/e"})

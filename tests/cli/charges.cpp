@@ -138,12 +138,12 @@ TEST_CASE("potential and surface prepare a structure without charges, as prepare
   const std::string pqr = folder.file("p.pqr");
   REQUIRE(run_espdiff("prepare " + *entry + " -q --ph 5 -o " + pqr).status == 0);
   const auto both = [&](const std::string& verb, const std::string& options, const std::string& ending) {
-    const Outcome direct =
-        run_espdiff(verb + " " + *entry + " --ph 5 " + options + " --device cpu -o " + folder.file("direct" + ending));
+    const Outcome direct = run_espdiff(verb + " " + *entry + " --ph 5 " + options + " --device cpu --overwrite -o " +
+                                       folder.file("direct" + ending));
     REQUIRE_MESSAGE(direct.status == 0, direct.err);
     CHECK_MESSAGE(contains(direct.out, "prepared by     PDB2PQR v"), direct.out);
     const Outcome step =
-        run_espdiff(verb + " " + pqr + " " + options + " --device cpu -o " + folder.file("step" + ending));
+        run_espdiff(verb + " " + pqr + " " + options + " --device cpu --overwrite -o " + folder.file("step" + ending));
     REQUIRE_MESSAGE(step.status == 0, step.err);
     CHECK_FALSE(contains(step.out, "prepared by"));
     CHECK(read_file(folder.file("direct" + ending)) == read_file(folder.file("step" + ending)));
@@ -167,7 +167,7 @@ TEST_CASE("surface takes selections; what potential and surface cannot do is one
   const auto entry = real_input("pairs/1ake.pdb");
   if (!entry) return;
   const ScratchFolder folder;
-  const std::string output = " --device cpu --grid-spacing 2 -o " + folder.file("s.vtp");
+  const std::string output = " --device cpu --grid-spacing 2 --overwrite -o " + folder.file("s.vtp");
   const auto area = [](const std::string& out) { return std::stod(out.substr(out.find("area") + 4)); };
   const Outcome all = run_espdiff("surface " + *entry + output),
                 chain = run_espdiff("surface " + *entry + " --select '//A;polymer'" + output);

@@ -183,6 +183,54 @@ TEST_CASE("kill -9 at any time: the run resumes to the same bytes; shards merge 
   CHECK(read_file(in.folder.file("all.json")) == read_file(in.folder.file("whole.json")));
 }
 
+TEST_CASE("fields have results of their own: found where they differ, resumed, sharded and computed again") {
+  const Runs in;
+  const std::string fields = " --field e=normal-field --field curvature --field charge";
+  REQUIRE(in.ensemble(in.groups + " -q -o plain").status == 0);
+  const Outcome out = in.ensemble(in.groups + fields + " -o out");
+  INFO(out.err);
+  REQUIRE(out.status == 0);
+  CHECK(read_file(in.folder.file("out.h5")) == read_file(in.folder.file("plain.h5")));
+  CHECK(out.out.find("family       p is family-wise over the surfaces of 2 fields together") != std::string::npos);
+  CHECK(out.out.find("warning: field charge was not tested: values of replicate w1 of wild do not change") !=
+        std::string::npos);
+  const auto json = nlohmann::json::parse(read_file(in.folder.file("out.e.json")));
+  double at_mutant = 0;
+  for (const auto& patch : json.at("patches")) {
+    for (const auto& residue : patch.at("residues"))
+      if (residue.at("residue") == "ALA 8 of chain A") at_mutant = patch.at("difference").get<double>();
+  }
+  CHECK(at_mutant < 0);  // the field points into a charge that became negative
+  CHECK(json["field"]["kind"] == "normal-field");
+  CHECK(json["field"]["n_together"] == 2);
+  CHECK(read_file(in.folder.file("out.e.vtp")).find("\"e_difference\"") != std::string::npos);
+  CHECK(nlohmann::json::parse(read_file(in.folder.file("out.curvature.json"))).at("patches").empty());
+
+  in.ensemble(in.groups + fields + " -q -o killed", "timeout -s KILL 0.6 ");
+  REQUIRE(in.ensemble(in.groups + fields + " -q -o killed --resume").status == 0);
+  for (const char* shard : {"1", "2", "3"})
+    REQUIRE(in.ensemble(in.groups + fields + " -q -o part --shard " + shard + "/3").status == 0);
+  REQUIRE(in.run_merge().status == 0);
+  for (const char* name : {"e", "curvature", "charge"}) {
+    const std::string part = std::string("part.") + name + ".shard-";
+    REQUIRE(in.merge(part + "1-of-3.h5 " + part + "2-of-3.h5 " + part + "3-of-3.h5 -q -o all." + name).status == 0);
+  }
+  REQUIRE(in.run("ensemble --from all.h5 -q -o all" + fields).status == 0);
+  for (const char* name : {"killed", "all"}) {
+    for (const char* ending : {".h5", ".json", ".vtp", ".residues.csv", ".patches.csv"})
+      CHECK(read_file(in.folder.file(name + std::string(".e") + ending)) ==
+            read_file(in.folder.file(std::string("out.e") + ending)));
+  }
+  const Outcome missing = in.run("ensemble --from all.h5 -q -o all --field donor");
+  CHECK(missing.status == 2);
+  CHECK(missing.err ==
+        "espdiff: all.donor.h5: no such file; --from all.h5 with --field donor reads the field's values "
+        "there, and only a run that maps makes it\n");
+  const Outcome no_pattern = in.ensemble(in.groups + " --field water=map:w.dx -q -o none");
+  CHECK(no_pattern.status != 0);
+  CHECK(no_pattern.err.find('\n') == no_pattern.err.size() - 1);
+}
+
 TEST_CASE("the answer through the medoids of the groups is beside that of the first template") {
   const Runs in;
   const Outcome out = in.ensemble(in.groups + " -o out --check-template");

@@ -195,3 +195,23 @@ TEST_CASE("next: potential and prepare keep files that are there, and replace th
   }
   CHECK(run_espdiff("prepare " + pqr + " -q -o /dev/null --json /dev/null").err.find("exists") == std::string::npos);
 }
+
+TEST_CASE("next: without a potential, what needs one is left out too") {
+  const ScratchFolder folder;
+  // A ligand that nothing has charges for, and whose place among other options is kept.
+  folder.write("x.pdb",
+               "HETATM    1  C1  XQZ A   1       0.000   0.000   0.000  1.00  0.00           C\n"
+               "HETATM    2  C2  XQZ A   1       1.500   0.000   0.000  1.00  0.00           C\n"
+               "HETATM    3  O1  XQZ A   1       2.000   1.200   0.000  1.00  0.00           O\n");
+  const std::string in_folder = "cd " + folder.file("") + " &&";
+  const Outcome refused = run_espdiff(
+      "compare x.pdb x.pdb --patches-of 'potential>1' --field s=field-strength --field h=curvature --causes whole "
+      "--field=normal-field --exit-zero --device cpu -o x",
+      in_folder);
+  CHECK(refused.status == 2);
+  CHECK_MESSAGE(next_words(refused.err) ==
+                    "compare x.pdb x.pdb --field h=curvature --exit-zero --device cpu -o x --potential none",
+                refused.err);
+  const Outcome next = run_espdiff(next_words(refused.err), in_folder);
+  CHECK_MESSAGE(next.status == 0, next.err);
+}

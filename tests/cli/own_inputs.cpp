@@ -77,7 +77,8 @@ TEST_CASE("each output of each verb, found by running it, is refused as a link t
                        {"a.pqr", "b.pqr", "two.pqr"}, "--overwrite");
   check_linked_outputs(folder, "compare a.pqr b.pqr --source-map a.dx --target-map a.dx -o r --exit-zero" + coarse,
                        {"a.dx", "a.pqr", "b.pqr"}, "--overwrite");
-  check_linked_outputs(folder, "surface a.pqr --map a.dx -o s.vtp --density d.dx" + coarse, {"a.pqr", "a.dx"});
+  check_linked_outputs(folder, "surface a.pqr --map a.dx -o s.vtp --density d.dx" + coarse, {"a.pqr", "a.dx"},
+                       "--overwrite");
   check_linked_outputs(folder, "potential two.pqr --averaging each --pad 5 --grid 4 -o c.dx" + end, {"two.pqr"});
   check_linked_outputs(folder, "potential two.pqr --variance v.dx --standard-error e.dx --pad 5 --grid 4 -o c.dx" + end,
                        {"two.pqr"});
@@ -191,4 +192,61 @@ TEST_CASE("a plot needs no folder for temporary files and does not read the user
   }
   CHECK_MESSAGE(outcome.status == 0, outcome.err);
   CHECK_FALSE(contains(read_file(in.folder.file("p.svg")), "MINE"));
+}
+
+TEST_CASE("no verb replaces a file that is there unless --overwrite says so") {
+  OwnInputs in;
+  const std::string where = "cd " + in.folder.file("") + " &&", coarse = " --grid-spacing 2 --device cpu -q";
+  REQUIRE(run_espdiff("compare a.pqr b.pqr -o p --exit-zero --potential coulomb" + coarse, where).status == 0);
+  struct Case {
+    std::string command, output;
+  };
+  const bool draws = std::getenv("DISPLAY") != nullptr;
+  std::vector<Case> cases = {
+      {"surface a.pqr -o s.vtp" + coarse, "s.vtp"},
+      {"surface a.pqr -o s2.vtp --density d.dx" + coarse, "d.dx"},
+      {"potential a.pqr --method coulomb --pad 5 --grid 4 -o c.dx --device cpu -q", "c.dx"},
+      {"prepare a.pqr -o q.pqr -q", "q.pqr"},
+      {"export p --to ply", "p.ply"},
+      {"export p --to blender -o b.blender.py", "b.ply"},
+      {"plot p -o p.svg", "p.svg"},
+      {"report p", "p.html"},
+  };
+  if (draws) cases.push_back({"render p -o p.png --width 100 --height 100", "p.png"});
+  if (draws) cases.push_back({"render p -o p2.png --width 100 --height 100 --save-scene scene.json", "scene.json"});
+  for (const auto& [command, output] : cases) {
+    CAPTURE(command);
+    in.folder.write(output, "somebody's work");
+    const std::size_t n_files = in.folder.n_files();
+    const Outcome refused = run_espdiff(command, where);
+    CHECK(refused.status == 2);
+    CHECK_MESSAGE(contains(refused.err, "espdiff: " + output + " exists; --overwrite replaces it, another --output"),
+                  refused.err);
+    CHECK(contains(refused.err, "\nnext: espdiff " + command + " --overwrite\n"));
+    CHECK(read_file(in.folder.file(output)) == "somebody's work");
+    CHECK(in.folder.n_files() == n_files);
+    const Outcome replaced = run_espdiff(command + " --overwrite", where);
+    CHECK_MESSAGE(replaced.status == 0, replaced.err);
+    CHECK(read_file(in.folder.file(output)) != "somebody's work");
+  }
+}
+
+TEST_CASE("every verb refuses a name that is not UTF-8 before it computes") {
+  const ScratchFolder folder;
+  folder.write("a.pqr", row_of_atoms(6));
+  folder.write("\xff.pqr", row_of_atoms(6, 0.2));
+  const std::string where = "cd " + folder.file("") + " &&", bad = "'\xff.pqr'";
+  for (const std::string& arguments :
+       {"compare a.pqr " + bad, "trajectory a.pqr " + bad + " -o t.csv", "matrix a.pqr " + bad + " -o m",
+        "surface " + bad + " -o s.vtp", "potential " + bad + " -o p.dx", "prepare " + bad + " -o q.pqr",
+        "surface a.pqr -o " + bad, "compare a.pqr a.pqr --charges-from " + bad, "plot " + bad + " -o p.svg"}) {
+    CAPTURE(arguments);
+    const Outcome outcome = run_espdiff(arguments, where);
+    CHECK(outcome.status == 2);
+    CHECK_MESSAGE(
+        contains(outcome.err, "espdiff: '?.pqr': this name is not UTF-8, so that no result can name the file"),
+        outcome.err);
+    CHECK(n_lines(outcome.err) == 1);
+    CHECK(folder.n_files() == 2);
+  }
 }

@@ -40,7 +40,7 @@ TEST_CASE("a matrix as heat map, and one of its variants against all") {
   for (const char* word : {"m0", "m1", "m2", "first", "second", "Mean displacement (\u00C5)", "clustered by"})
     CHECK_MESSAGE(contains(text, word), std::string(word), text);
   const Outcome lines = run_espdiff("plot " + matrix + " --source m1 --metric rmsd_A --metric no_counterpart_source " +
-                                    "--both-ways -o " + svg);
+                                    "--both-ways --overwrite -o " + svg);
   REQUIRE_MESSAGE(lines.status == 0, lines.err);
   text = read_file(svg);
   for (const char* word : {"m1 against all others", "RMSD (\u00C5)", "Unmatched area, source (%)", "Variant"})
@@ -108,16 +108,17 @@ TEST_CASE("a comparison is drawn from any of its files, with both states") {
   const std::string svg = folder.file("top.svg");
   REQUIRE(run_espdiff("plot " + table + " --top 1 -o " + svg).status == 0);
   CHECK_FALSE(contains(read_file(svg), "ASP"));
-  REQUIRE(run_espdiff("plot " + table + " --kind scatter --title both -o " + svg).status == 0);
+  REQUIRE(run_espdiff("plot " + table + " --kind scatter --title both --overwrite -o " + svg).status == 0);
   for (const char* word : {"source (kT/e)", "target (kT/e)", "both", "LYS A8"})
     CHECK_MESSAGE(contains(read_file(svg), word), word);
   const Outcome shapes = run_espdiff(
       "plot " +
       folder.write("s.residues.csv", "chain,residue_number,insertion_code,residue_name,area [A^2]\nA,1,,ALA,3\n") +
-      " -o " + svg);
+      " --overwrite -o " + svg);
   CHECK(shapes.status == 2);
   CHECK(contains(shapes.err, "has no potentials of both states; compare with charges or maps"));
-  CHECK(contains(run_espdiff("plot " + table + " --metric rmsd_A -o " + svg).err, "is one of a comparison's residues"));
+  CHECK(contains(run_espdiff("plot " + table + " --metric rmsd_A --overwrite -o " + svg).err,
+                 "is one of a comparison's residues"));
 }
 
 TEST_CASE("wrong usage of plot exits 2 and writes nothing") {

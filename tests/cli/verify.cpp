@@ -173,6 +173,16 @@ TEST_CASE("damaged results are refused with the file and the remedy") {
   write_file(vtp, surface);
   CHECK(result.verified().status == 0);
 
+  for (const char* place : {"/inputs/0/path", "/inputs/1/path"}) result.set(place, "");
+  const Outcome without_files = result.verified();
+  CHECK_MESSAGE(without_files.status == 0, without_files.err);
+  CHECK_MESSAGE(contains(without_files.out, "OUT.json names no file for the source"), without_files.out);
+  const Outcome exported = run_espdiff("export " + json + " --to pdb -o " + result.folder.file("x.pdb"));
+  CHECK(exported.status == 2);
+  CHECK_MESSAGE(contains(exported.err, json + ": names no file of a structure; compare again, or export"),
+                exported.err);
+  write_file(json, right);
+
   const Outcome absent = run_espdiff("verify " + result.folder.file("nothing"));
   CHECK(absent.status == 2);
   CHECK(contains(absent.err, "give the prefix of a result: OUT of OUT.json and OUT.vtp"));

@@ -199,3 +199,28 @@ TEST_CASE("Ctrl-C in the middle leaves nothing half written") {
   CHECK_MESSAGE(contains(outcome.err, "cancelled; nothing was written"), outcome.err);
   CHECK(folder.n_files() == 0);
 }
+
+TEST_CASE("an empty argument, as of a variable that is not set, is refused wherever it stands") {
+  const ScratchFolder folder;
+  folder.write("a.pqr", row_of_atoms(4));
+  const std::string where = "cd " + folder.file("") + " &&";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"compare '' a.pqr", "compare"},
+      {"a.pqr ''", "a.pqr"},
+      {"surface '' -o s.vtp", "surface"},
+      {"surface a.pqr -o ''", "-o"},
+      {"verify ''", "verify"},
+      {"compare a.pqr a.pqr --source-map ''", "--source-map"},
+      {"compare a.pqr a.pqr --select ''", "--select"},
+      {"ensemble --group A '' --group B a.pqr -o e", "A"}};
+  for (const auto& [arguments, before] : cases) {
+    CAPTURE(arguments);
+    const Outcome outcome = run_espdiff(arguments, where);
+    CHECK(outcome.status == 2);
+    CHECK_MESSAGE(contains(outcome.err, "espdiff: there is an empty argument behind '" + before +
+                                            "', as of a variable that is not set; give a name, or leave it out"),
+                  outcome.err);
+    CHECK(n_lines(outcome.err) == 1);
+    CHECK(folder.n_files() == 1);
+  }
+}

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <sstream>
 
 #include <boost/math/distributions/non_central_t.hpp>
@@ -68,6 +69,54 @@ TEST_CASE("the planted patch is found where it is, with its size, its residue an
   }
   CHECK(result.warnings.empty());
   CHECK(result.not_equilibrium.empty());
+}
+
+TEST_CASE("fields of a run are tested together; one that does not change takes nothing away from the others") {
+  const ScratchFolder folder;
+  std::vector<std::unique_ptr<EnsembleFile>> files;
+  std::vector<const EnsembleFile*> all;
+  for (const char* name : {"a", "b", "still"}) {
+    EnsemblePlan plan = planted_plan(4, 4, 20);
+    plan.field = FieldDescription{{name, std::string("Field ") + name, "", true}, name, "", {}};
+    plan.n_fields = 3;
+    plan.potential = plan.field->quantity.label;
+    plan.potential_unit = "";
+    const std::string path = folder.file(name + std::string(".h5"));
+    if (name == std::string("still")) {
+      const TemplateSurface surface = planted_template(2);
+      EnsembleFile::create(path, plan, surface);
+      EnsembleFile file(path, true);
+      for (std::size_t f = 0; f < plan.n_frames(); ++f)
+        file.write(f, std::vector<float>(surface.positions.size(), 1.8F), {1, 0, 0, 0, 1, 1.8, true, ""});
+    } else {
+      plant_file(path, plan, name == std::string("a") ? -2 : 0, name[0]);
+    }
+    files.push_back(std::make_unique<EnsembleFile>(path, false));
+    all.push_back(files.back().get());
+  }
+  const std::vector<FieldStatistics> together = analyse_fields(all, {});
+  CHECK(together[2].why_not ==
+        "values of replicate 1 of wild do not change from frame to frame; are its frames copies of one structure?");
+  REQUIRE(together[0].result);
+  REQUIRE(together[1].result);
+  CHECK(together[0].result->n_together == 2);
+  REQUIRE(!together[0].result->patches.empty());
+  CHECK(together[0].result->patches[0].smallest_p == doctest::Approx(2.0 / 70));
+  CHECK(together[1].result->patches.empty());
+  const EnsembleResult alone = analyse_ensemble(*all[1], {});
+  for (std::size_t v = 0; v < all[1]->n_vertices(); ++v) {
+    if (std::isfinite(alone.test.p_tfce[v])) CHECK(together[1].result->test.p_tfce[v] >= alone.test.p_tfce[v]);
+  }
+  CHECK(alone.warnings.front() ==
+        "family-wise p are over the surface of this field alone, one of 3; compute the statistics of all of them "
+        "together");
+  std::ostringstream table;
+  print_ensemble(table, *all[0], *together[0].result);
+  CHECK(
+      table.str().find("field        Field a\nfamily       p is family-wise over the surfaces of 2 fields together") !=
+      std::string::npos);
+  CHECK(table.str().find("mean absolute difference over the tested surface\n") != std::string::npos);
+  CHECK(parse_ensemble_plan(plan_text(all[0]->plan()), "a").field->quantity.label == "Field a");
 }
 
 TEST_CASE("as much of the planted patch is found as the noncentral t distribution says") {
@@ -170,6 +219,15 @@ TEST_CASE("the conclusion comes first, and p only where something can be conclud
   const auto [states, states_table] = answer("states.h5", planted_plan(4, 4, 100), -1);
   CHECK(states.conclusion.find("the states, as these simulations sample them, differ on ") == 0);
   CHECK(states_table.find("   p = ") != std::string::npos);
+}
+
+TEST_CASE("a replicate is named by its file up to the first dot, which is not one that hides the file") {
+  const std::vector<ReplicateRequest> replicates =
+      replicates_of_groups({{"A", "x/run1.traj.dcd", ".hidden.pdb", "none"}});
+  REQUIRE(replicates.size() == 3);
+  CHECK(replicates[0].name == "run1");
+  CHECK(replicates[1].name == ".hidden");
+  CHECK(replicates[2].name == "none");
 }
 
 TEST_CASE("replicates of a file, or some of their frames, are compared in other groups") {

@@ -192,7 +192,8 @@ TEST_CASE("names in files stay names") {
   CHECK(!std::filesystem::exists(named));
   const std::string bytes = result.folder.file("\xff.pymol.py");
   CHECK_THROWS_WITH_AS(export_result(result.prefix, export_format("pymol"), bytes, options),
-                       doctest::Contains("whose name is not UTF-8; choose another output"), InputError);
+                       doctest::Contains("this name is not UTF-8, so that no result can name the file; rename it"),
+                       InputError);
 }
 
 TEST_CASE("a result that cannot be exported is refused in one line") {
@@ -211,7 +212,7 @@ TEST_CASE("a result that cannot be exported is refused in one line") {
   CHECK(contains(fails("--to pdb -o " + result.folder.file("a.pqr")), "a.pqr"));
   result.folder.write("a.pqr", row_of_atoms(8, 1));
   CHECK(contains(fails("--to pdb"), "a.pqr has changed since the comparison; compare again, or export the surface"));
-  CHECK(run_espdiff("export " + result.prefix + ".vtp --to glb").status == 0);
+  CHECK(run_espdiff("export " + result.prefix + ".vtp --to glb --overwrite").status == 0);
   const std::string json = read_file(result.prefix + ".json");
   result.folder.write("pair.json", "{\"certificate\": {}, \"superposition\": 3}");
   CHECK(contains(fails("--to glb"), "not a record that `espdiff compare` wrote; compare again"));

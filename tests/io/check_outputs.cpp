@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "support/test_data.h"
+#include "support/text.h"
 
 using namespace espdiff;
 using namespace espdiff_test;
@@ -56,4 +57,20 @@ TEST_CASE("check_outputs keeps a file that is there unless it may be replaced; a
         }) == there + " exists; overwrite replaces it, another output keeps it");
   CHECK_NOTHROW(check_outputs({}, {there}, true));
   CHECK_NOTHROW(check_outputs({}, {folder.file("new"), "", "/dev/null"}, false));
+}
+
+TEST_CASE("a name that no JSON could hold is refused, whether it is read or written") {
+  const auto refusal = [](const std::string& input, const std::string& output) {
+    return message_of([&] { check_outputs({input}, {output}); });
+  };
+  // Latin-1, a lone continuation, cut off, too long for what it is, a surrogate, beyond the last character.
+  for (const char* name : {"caf\xe9.pqr", "\x80", "\xe6\xbc", "\xc0\xaf", "\xe0\x9f\xbf", "\xf0\x8f\xbf\xbf",
+                           "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xff"}) {
+    CHECK(contains(refusal(name, "out"), "': this name is not UTF-8, so that no result can name the file; rename it"));
+    CHECK(refusal("in", name) == refusal(name, "out"));
+  }
+  CHECK(refusal("caf\xe9.pqr", "out").rfind("'caf?.pqr'", 0) == 0);
+  for (const char* name : {"caf\xc3\xa9", "\xe6\xbc\xa2\xe5\xad\x97", "\xf0\x9d\x94\xb8", "\xef\xbf\xbd",
+                           "\xed\x9f\xbf", "\xf4\x8f\xbf\xbf", "a\nb"})
+    CHECK_NOTHROW(check_outputs({name}, {"out"}));
 }

@@ -33,3 +33,13 @@ TEST_CASE("fields that would break the row are quoted") {
   write_csv_row(out, {"kcal/(mol e)"});
   CHECK(out.str() == "A,,\"a,b\",\"say \"\"hi\"\"\",\"two\nlines\"\nkcal/(mol e)\n");
 }
+
+TEST_CASE("a label that looks like a comment, or has blanks at its ends, is the same when it is read") {
+  const std::vector<std::string> labels = {"#1", " before", "behind ", "\tTab", "a\tb", " # ", "'", "\r"};
+  std::ostringstream out;
+  write_csv_row(out, {"a", "b", "c", "d", "e", "f", "g", "h"});
+  write_csv_row(out, labels);
+  const CsvTable table = parse_csv(out.str(), "a.csv");
+  REQUIRE(table.rows.size() == 1);
+  CHECK(table.rows.front() == labels);
+}

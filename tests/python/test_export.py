@@ -28,7 +28,7 @@ def result(tmp_path_factory):
 
 
 def exported(result, form):
-    answer = subprocess.run([PROGRAM, "export", result, "--to", form], check=True, capture_output=True, text=True)
+    answer = subprocess.run([PROGRAM, "export", result, "--to", form, "--overwrite"], check=True, capture_output=True, text=True)
     return pathlib.Path(answer.stdout.splitlines()[0].removeprefix("wrote "))
 
 

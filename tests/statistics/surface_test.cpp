@@ -103,6 +103,45 @@ TEST_CASE("a place's test is Welch's of the replicates' area-weighted means") {
   CHECK(std::isnan(places.p[1]));
 }
 
+TEST_CASE("several surfaces together: p are shares of the largest value on any, and false alarms stay nominal") {
+  const MeshGraph graph = ellipsoid();
+  constexpr std::size_t kDraws = 200, kSurfaces = 3;
+  std::size_t n_together = 0, n_alone = 0;
+  for (std::size_t draw = 0; draw < kDraws; ++draw) {
+    std::vector<SurfaceTest> tests;
+    for (std::size_t s = 0; s < kSurfaces; ++s) {
+      const auto means = means_of(summarize_columns(planted(graph, 8, 10, 0, 1000 + kSurfaces * draw + s)));
+      tests.push_back(test_replicates(means, 4, graph, {}));
+    }
+    const auto has_alarm = [](const SurfaceTest& t) {
+      return *std::min_element(t.p_tfce.begin(), t.p_tfce.end()) <= 0.05;
+    };
+    n_alone += std::any_of(tests.begin(), tests.end(), has_alarm) ? 1 : 0;
+    const std::vector<SurfaceTest> alone = tests;
+    control_together({&tests[0], &tests[1], &tests[2]});
+    n_together += std::any_of(tests.begin(), tests.end(), has_alarm) ? 1 : 0;
+    if (draw > 0) continue;
+    for (std::size_t v = 0; v < graph.n_vertices(); v += 7) {
+      double n = 0;
+      for (std::size_t k = 0; k < alone[0].n_permutations; ++k) {
+        double largest = 0;
+        for (const SurfaceTest& t : alone) largest = std::max(largest, t.maxima.t[k]);
+        n += largest >= std::fabs(alone[1].vertices.t[v]) * (1 - 1e-9) ? 1 : 0;
+      }
+      CHECK(tests[1].p_max_t[v] == doctest::Approx(n / 70));
+      CHECK(tests[1].p_max_t[v] >= alone[1].p_max_t[v]);
+      CHECK(tests[1].p_tfce[v] >= alone[1].p_tfce[v]);
+    }
+    SurfaceTest single = alone[0];
+    control_together({&single});
+    CHECK(single.p_tfce == alone[0].p_tfce);
+  }
+  MESSAGE("false alarms of " << kDraws << ": " << n_together << " together, " << n_alone << " each surface alone");
+  CHECK(n_together <= 13);  // 5.7 expected; more in one of a thousand
+  CHECK(n_together >= 1);
+  CHECK(n_alone > 2 * n_together - 4);
+}
+
 TEST_CASE("one replicate a group: exchanged blocks find the patch") {
   const MeshGraph graph = ellipsoid();
   const ColumnsInMemory columns = planted(graph, 2, 800, 1.0, 34);

@@ -37,6 +37,7 @@ namespace fs = std::filesystem;
 
 /// @throws IoError (nothing there, or a folder)
 fs::file_type type_of_file(const std::string& path) {
+  if (path.empty()) throw IoError("(empty name)", "cannot read a file without a name; name the input");
   std::error_code error;
   const fs::file_type type = fs::status(path, error).type();
   if (error) {

@@ -16,9 +16,15 @@ bool is_label_like_formula(const std::string& field) {
          field != "-inf";
 }
 
+/// Whether parse_csv() would read another text: fields are separated, and blanks and comments are passed over.
+bool is_read_otherwise(const std::string& field) {
+  if (field.empty()) return false;
+  return field[0] == '#' || trimmed(field) != field || field.find_first_of(",\"\r\n\t") != std::string::npos;
+}
+
 std::string quoted(const std::string& field) {
   const bool is_formula = is_label_like_formula(field);
-  if (!is_formula && field.find_first_of(",\"\r\n") == std::string::npos) return field;
+  if (!is_formula && !is_read_otherwise(field)) return field;
   std::string result = is_formula ? "\"'" : "\"";
   for (const char c : field) {
     if (c == '"') result += '"';

@@ -22,6 +22,7 @@ using Json = nlohmann::json;
 /// The file with the recorded content, if there are two of this name.
 RecordedInput found_from(const fs::path& folder, const std::string& path, const std::string& sha256) {
   std::error_code ignored;
+  if (path.empty()) return {path, sha256, {}};
   const std::string beside = (folder / path).string();
   if (!fs::exists(beside, ignored)) return {path, sha256, {}};
   const bool is_here = fs::is_regular_file(path, ignored) && sha256_of_file(path) == sha256;
@@ -141,6 +142,7 @@ RunRecord read_run_record(const std::string& vtp_path) {
 Molecule read_compared(const RunRecord& record, const RecordedInput& input, bool with_water,
                        const std::string& remedy) {
   if (!record.found) throw InputError(record.path + ": no such file; it names the structures" + remedy);
+  if (input.path.empty()) throw InputError(record.path + ": names no file of a structure" + remedy);
   std::error_code ignored;
   if (!fs::exists(input.path, ignored)) throw InputError(input.path + " no longer exists" + remedy);
   const StructureFile file(input.path);
