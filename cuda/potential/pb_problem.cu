@@ -52,8 +52,16 @@ std::vector<PbAtom> sorted_atoms(const std::vector<Vec3d>& positions, const std:
 
 void fill_pb_operator(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, const PbConstants& constants,
                       const PoissonBoltzmannOptions& options, GridOperator& on_grid) {
+  fill_operator(with_radius(atoms), lattice, options, usual_coefficients(lattice, constants, options).ions, on_grid);
+}
+
+UsualCoefficients usual_coefficients(const CubicLattice& lattice, const PbConstants& constants,
+                                     const PoissonBoltzmannOptions& options) {
   const double h = static_cast<double>(lattice.spacing);
-  fill_operator(with_radius(atoms), lattice, options, static_cast<float>(h * h * constants.kappa_bar_2), on_grid);
+  // Rounded as fill_operator() rounds them by default; a face that it rounds otherwise is listed.
+  const auto as_made = [](double dielectric) { return 1.0F / static_cast<float>(1 / dielectric); };
+  return {as_made(options.solute_dielectric), as_made(options.solvent_dielectric),
+          static_cast<float>(h * h * constants.kappa_bar_2)};
 }
 
 Lattice twice_as_wide(Lattice lattice) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cuda/potential/multigrid.h"
+#include "cuda/potential/packed_operator.h"
 #include "cuda/potential/pb_atoms.h"
 #include "cuda/surface/grid.h"
 #include "engine/poisson_boltzmann.h"
@@ -31,6 +32,10 @@ std::vector<PbAtom> sorted_atoms(const std::vector<Vec3d>& positions, const std:
 /// The coefficients of the equation on a grid; its diagonal holds the ions' part alone.
 void fill_pb_operator(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, const PbConstants& constants,
                       const PoissonBoltzmannOptions& options, GridOperator& on_grid);
+
+/// The dielectrics and the k that most points have; see fill_pb_operator().
+UsualCoefficients usual_coefficients(const CubicLattice& lattice, const PbConstants& constants,
+                                     const PoissonBoltzmannOptions& options);
 
 /// The factor of a charge on the right-hand side, 4 pi C / h.
 inline double charge_scale(const CubicLattice& lattice, double coulomb) {

@@ -83,10 +83,12 @@ struct Problem {
 };
 
 /// Solves for phi, whose border is set, and fills the report.
-void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& phi, PoissonBoltzmannReport& report) {
+void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& phi, PoissonBoltzmannReport& report,
+           std::shared_ptr<const PackedOperator>* kept = nullptr) {
   const PoissonBoltzmannOptions& options = problem.options;
   GridOperator on_grid;
   fill_pb_operator(problem.atoms, lattice, problem.constants, options, on_grid);
+  if (kept != nullptr) *kept = PackedOperator::pack(on_grid, usual_coefficients(lattice, problem.constants, options));
   problem.progress.report("potential", 0.2);
   const SortedCharges<double> charges = charges_on_grid(problem.atoms, lattice, problem.constants.coulomb);
   const RightHandSide b = [&](Buffer<float>& values) { spread_rounded(charges, raw(values)); };
@@ -163,8 +165,9 @@ std::shared_ptr<MapGrid> poisson_boltzmann(const std::vector<Vec3d>& positions, 
     told.net_charge += static_cast<double>(atom.charge);
     told.n_charges += atom.charge != 0 ? 1 : 0;
   }
-  solve(problem, lattice, map->values, told);
   auto origin = std::make_shared<MapOrigin>();
+  const bool keeps = options.keep_operator && !(options.nonlinear && options.ionic_strength > 0);
+  solve(problem, lattice, map->values, told, keeps ? &origin->pb_operator : nullptr);
   origin->method = PotentialMethod::kPoissonBoltzmann;
   origin->positions = positions;
   origin->to_map = to_map;

@@ -157,8 +157,10 @@ struct Series::Steps {
     if (!has_map(target)) return nullptr;
     const PotentialUnit wanted = common_unit(source, target);
     const double temperature_K = options.temperature_K;
+    const bool for_readings = !options.causes.empty();
     if (source_map.map == nullptr || wanted != unit) {
-      source_map = device_map(engine, source, inverse(frame.from_source), nullptr, wanted, temperature_K, progress);
+      source_map = device_map(engine, source, inverse(frame.from_source), {nullptr, for_readings}, wanted,
+                              temperature_K, progress);
       unit = wanted;
     }
     if (source.make_map) result.source_recipe = std::make_shared<const MapRecipe>(source_map.recipe);
@@ -166,7 +168,8 @@ struct Series::Steps {
     // An iteration may start from the source's potential, whatever steps were made before: the bits of a step do not
     // depend on them.
     const GridPtr before = source.make_map ? source_map.map : nullptr;
-    MadeMap made = device_map(engine, target, inverse(frame.from_target), before, wanted, temperature_K, progress);
+    MadeMap made =
+        device_map(engine, target, inverse(frame.from_target), {before, for_readings}, wanted, temperature_K, progress);
     if (target.make_map) result.target_recipe = std::make_shared<const MapRecipe>(std::move(made.recipe));
     target_charges = std::move(made.charges);
     return made.map;

@@ -177,7 +177,7 @@ InterfaceOfComplex::InterfaceOfComplex(Engine& engine, const LoadedState& comple
     for (std::size_t i = 0; i < own.size(); ++i) {
       if (!own[i]) charged.molecule.charges[i] = 0;
     }
-    const MadeMap made = plan.map_of(charged).maker()(engine, inverse(to_common_), nullptr, progress);
+    const MadeMap made = plan.map_of(charged).maker()(engine, inverse(to_common_), {}, progress);
     maps_[side] = made.map;
     result_.potential = potential_label(made.recipe);
     result_.sides[side].molecule = keep_atoms(both.molecule, own);

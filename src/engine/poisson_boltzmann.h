@@ -40,10 +40,11 @@ struct PoissonBoltzmannOptions {
   DielectricBoundary dielectric_boundary = DielectricBoundary::kMolecular;
   DielectricSmoothing smoothing = DielectricSmoothing::kEdges;
   FarBoundary far_boundary = FarBoundary::kDebyeHueckel;
-  bool nonlinear = false;     ///< sinh(phi) instead of phi for the ions
-  double tolerance = 1e-6;    ///< of the residual's norm, relative to the right-hand side's
-  int max_cycles = 100;       ///< of multigrid-preconditioned conjugate gradients; for each Newton step
-  int max_newton_steps = 50;  ///< of the nonlinear equation
+  bool nonlinear = false;      ///< sinh(phi) instead of phi for the ions
+  double tolerance = 1e-6;     ///< of the residual's norm, relative to the right-hand side's
+  int max_cycles = 100;        ///< of multigrid-preconditioned conjugate gradients; for each Newton step
+  int max_newton_steps = 50;   ///< of the nonlinear equation
+  bool keep_operator = false;  ///< keeps the linear equation's coefficients for contributions(), a byte a point
 };
 
 /// How a potential was computed.

@@ -24,7 +24,7 @@ struct EnsembleRequest {
   std::map<std::string, std::string> charges;  ///< group: PQR file of the same atoms
   std::string frames = "all";                  ///< of each replicate of files, as in a trajectory
   std::string template_text = "medoid";        ///< medoid, medoid:GROUP, a frame of all, or a file
-  MapRequest maps;                             ///< potentials of other programs, instead of computed ones
+  GivenMapRequest maps;                        ///< potentials of other programs, instead of computed ones
   std::string plugins;                         ///< folder of VMD's molfile plugins; empty: find_molfile_folder()
   PotentialRequest potential;
   StructureOptions structure;

@@ -20,7 +20,7 @@ std::string name_of(const EnsembleReplicate& replicate) {
 
 }  // namespace
 
-GivenMaps::GivenMaps(const MapRequest& request, const std::vector<EnsembleReplicate>& replicates,
+GivenMaps::GivenMaps(const GivenMapRequest& request, const std::vector<EnsembleReplicate>& replicates,
                      const std::vector<std::string>& patterns, const std::vector<std::vector<int>>& frames,
                      double temperature_K)
     : request_(request), temperature_K_(temperature_K) {

@@ -13,7 +13,7 @@
 namespace espdiff {
 
 /// What names the maps.
-struct MapRequest {
+struct GivenMapRequest {
   std::map<std::string, std::string> of_group;  ///< group: a pattern, see map_file()
   std::string unit;                             ///< of files that do not give it; empty for none
   std::string array;                            ///< of VTI files with several
@@ -29,7 +29,7 @@ class GivenMaps {
   /// @param frames   [replicate][] numbers of the chosen frames, from 0
   /// @throws InputError (a pattern; a group without maps where others have some; replicates that share maps; a missing
   ///         file), as read_grid_file()
-  GivenMaps(const MapRequest& request, const std::vector<EnsembleReplicate>& replicates,
+  GivenMaps(const GivenMapRequest& request, const std::vector<EnsembleReplicate>& replicates,
             const std::vector<std::string>& patterns, const std::vector<std::vector<int>>& frames,
             double temperature_K);
 
@@ -46,7 +46,7 @@ class GivenMaps {
  private:
   Grid read_file(const std::string& path) const;
 
-  MapRequest request_;
+  GivenMapRequest request_;
   double temperature_K_ = 0;
   PotentialUnit unit_ = PotentialUnit::kUnknown;
   std::vector<std::vector<std::string>> files_;

@@ -120,7 +120,7 @@ SurfaceResult make_surface(Engine& engine, const CompareInput& input, const Comp
   result.residue = engine.vertex_residues(surface.mesh, surface.atoms);
   if (has_map(input)) {
     result.unit = unit_of(input);
-    const MadeMap made = device_map(engine, input, from_common, nullptr, result.unit, options.temperature_K, progress);
+    const MadeMap made = device_map(engine, input, from_common, {}, result.unit, options.temperature_K, progress);
     if (input.make_map) {
       result.potential_label = potential_label(made.recipe);
       result.is_vacuum = is_vacuum(made.recipe);

@@ -13,11 +13,18 @@ namespace espdiff {
 
 struct MadeMap;
 
+/// What a computed map is made with, and what for.
+struct MapRequest {
+  /// A potential that this one may resemble, in the same common frame, such as the source's: an iteration may start
+  /// from it; null where there is none.
+  GridPtr before = nullptr;
+  bool for_readings = false;  ///< Engine::contributions() is asked of it: what that needs of the solution is kept
+};
+
 /// Makes a potential where it is needed, on the device: sampled there in whatever way it was made for, such as by its
 /// splines (PmeOptions::smooth_samples). In kT/e at the comparison's temperature. `to_map` is the way from the common
-/// frame into the molecule's own. `before` is a potential that this one may resemble, in the same common frame, such as
-/// the source's: an iteration may start from it; null where there is none.
-using MapMaker = std::function<MadeMap(Engine& engine, const RigidTransform& to_map, const GridPtr& before,
+/// frame into the molecule's own.
+using MapMaker = std::function<MadeMap(Engine& engine, const RigidTransform& to_map, const MapRequest& request,
                                        const Progress& progress)>;
 
 /// One side of a comparison: a molecule with a given map, a computed map, or none. Without maps on both sides only

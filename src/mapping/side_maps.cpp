@@ -49,9 +49,9 @@ void check_maps(const CompareInput& source, const CompareInput& target) {
   }
 }
 
-MadeMap device_map(Engine& engine, const CompareInput& side, const RigidTransform& to_map, const GridPtr& before,
+MadeMap device_map(Engine& engine, const CompareInput& side, const RigidTransform& to_map, const MapRequest& request,
                    PotentialUnit unit, double temperature_K, const Progress& progress) {
-  if (side.make_map) return side.make_map(engine, to_map, before, progress);
+  if (side.make_map) return side.make_map(engine, to_map, request, progress);
   if (side.map->unit == unit || unit == PotentialUnit::kUnknown) return {engine.upload_map(*side.map, to_map), {}};
   return {engine.upload_map(in_unit(*side.map, unit, temperature_K), to_map), {}};
 }

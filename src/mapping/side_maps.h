@@ -19,10 +19,10 @@ PotentialUnit unit_of(const CompareInput& side);
 
 /// The side's map, computed or uploaded, in a unit; its recipe counts where it was computed.
 /// @param to_map the common frame -> the molecule's own
-/// @param before where a computed one's iteration may start; may be null
+/// @param request of a computed one
 /// @param unit   kUnknown leaves a given map's values as they are
 /// @throws as CompareInput::make_map; InputError (units that cannot be converted)
-MadeMap device_map(Engine& engine, const CompareInput& side, const RigidTransform& to_map, const GridPtr& before,
+MadeMap device_map(Engine& engine, const CompareInput& side, const RigidTransform& to_map, const MapRequest& request,
                    PotentialUnit unit, double temperature_K, const Progress& progress);
 
 /// Number of samples outside the map.

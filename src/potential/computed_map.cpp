@@ -58,7 +58,7 @@ struct ComputedMap::Charges {
 
   MadeMap pme(Engine& engine, const RigidTransform& to_map, const Progress& progress) const;
   MadeMap coulomb(Engine& engine, const RigidTransform& to_map) const;
-  MadeMap poisson_boltzmann(Engine& engine, const RigidTransform& to_map, const GridPtr& before,
+  MadeMap poisson_boltzmann(Engine& engine, const RigidTransform& to_map, const MapRequest& request,
                             const Progress& progress) const;
 };
 
@@ -92,16 +92,18 @@ MadeMap ComputedMap::Charges::coulomb(Engine& engine, const RigidTransform& to_m
   return {engine.isolated_charges(molecule.positions, molecule.charges, options.coulomb, to_map), recipe};
 }
 
-MadeMap ComputedMap::Charges::poisson_boltzmann(Engine& engine, const RigidTransform& to_map, const GridPtr& before,
+MadeMap ComputedMap::Charges::poisson_boltzmann(Engine& engine, const RigidTransform& to_map, const MapRequest& request,
                                                 const Progress& progress) const {
   MadeMap made{nullptr, recipe};
   MapRecipe& r = made.recipe;
   const std::vector<Vec3d> positions = moved(molecule.positions, inverse(to_map));
   r.pb_lattice =
       on_multiples(poisson_boltzmann_lattice(positions, molecule.radii, options.pb_spacing_A, options.pb_padding_A));
+  PoissonBoltzmannOptions pb = r.pb;
+  pb.keep_operator = request.for_readings;
   try {
-    made.map = engine.poisson_boltzmann(positions, molecule.radii, molecule.charges, r.pb_lattice, r.pb, {}, before,
-                                        progress, &r.pb_report);
+    made.map = engine.poisson_boltzmann(positions, molecule.radii, molecule.charges, r.pb_lattice, pb, {},
+                                        request.before, progress, &r.pb_report);
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {  // the engine knows no names
@@ -190,18 +192,18 @@ MapMaker averaged_map(Grid mean, MapRecipe recipe) {
   recipe.made = true;
   recipe.zero = ZeroPlace::kCellMean;
   return [grid = std::make_shared<const Grid>(std::move(mean)), recipe = std::move(recipe)](
-             Engine& engine, const RigidTransform& to_map, const GridPtr&, const Progress&) {
+             Engine& engine, const RigidTransform& to_map, const MapRequest&, const Progress&) {
     return MadeMap{engine.upload_map(*grid, to_map), recipe, nullptr};
   };
 }
 
 MapMaker ComputedMap::maker() const {
-  return [charges = charges_](Engine& engine, const RigidTransform& to_map, const GridPtr& before,
+  return [charges = charges_](Engine& engine, const RigidTransform& to_map, const MapRequest& request,
                               const Progress& progress) {
     MadeMap made = charges->recipe.method == PotentialMethod::kPme ? charges->pme(engine, to_map, progress)
                    : charges->recipe.method == PotentialMethod::kCoulomb
                        ? charges->coulomb(engine, to_map)
-                       : charges->poisson_boltzmann(engine, to_map, before, progress);
+                       : charges->poisson_boltzmann(engine, to_map, request, progress);
     made.recipe.made = true;
     made.charges = std::shared_ptr<const Molecule>(charges, &charges->molecule);
     return made;
