@@ -31,7 +31,7 @@ namespace eval ::espdiff {
             set surface [export_for_viewer $folder $handle]
             set scene [file join $folder scene.json]
             write_text $scene [camera_json $handle [dict get $drawn surface]]
-            run_to_end $program [concat [list render $surface -o [file normalize $path] --scene $scene] \
+            run_to_end $program [concat [list render $surface -o [file normalize $path] --overwrite --scene $scene] \
                 [figure_words $handle $color $drawn $options]]
         } { file delete -force $folder }
         return $path

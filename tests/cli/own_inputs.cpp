@@ -212,8 +212,8 @@ TEST_CASE("no verb replaces a file that is there unless --overwrite says so") {
       {"plot p -o p.svg", "p.svg"},
       {"report p", "p.html"},
   };
-  if (draws) cases.push_back({"render p -o p.png --width 100 --height 100", "p.png"});
-  if (draws) cases.push_back({"render p -o p2.png --width 100 --height 100 --save-scene scene.json", "scene.json"});
+  if (draws) cases.push_back({"render p -o p.png --width 400 --height 400", "p.png"});
+  if (draws) cases.push_back({"render p -o p2.png --width 400 --height 400 --save-scene scene.json", "scene.json"});
   for (const auto& [command, output] : cases) {
     CAPTURE(command);
     in.folder.write(output, "somebody's work");
