@@ -103,7 +103,7 @@ TEST_CASE("what is printed and does not arrive is an error; a reader that goes a
                                 arguments + " 2>err " + where + "'";
     return WEXITSTATUS(std::system(command.c_str()));
   };
-  const std::string surface = "surface a.pqr --grid-spacing 2 --device cpu -o s.vtp";
+  const std::string surface = "surface a.pqr --grid-spacing 2 --device cpu --overwrite -o s.vtp";
   if (std::filesystem::exists("/dev/full")) {
     for (const std::string& arguments : {surface, std::string("--help"), std::string("doctor")}) {
       CHECK(status_of(arguments, ">/dev/full") == 1);
