@@ -51,7 +51,8 @@ def settings(words):
             raise SystemExit(f"matrix_dask.py: {option} is an option of `espdiff matrix` alone")
         if not option.startswith("--") or name not in parameters:
             raise SystemExit(f"matrix_dask.py: {option}: espdiff matrix has no such option")
-        if isinstance(parameters[name].default, bool) and name != "skip_errors":
+        is_switch = isinstance(parameters[name].default, bool) or kinds.get(name) == "boolean"
+        if is_switch and name != "skip_errors":
             given[name] = not off
             continue
         if not has_value:

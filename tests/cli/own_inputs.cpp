@@ -214,8 +214,9 @@ TEST_CASE("no verb replaces a file that is there unless --overwrite says so") {
   };
   if (draws) cases.push_back({"render p -o p.png --width 400 --height 400", "p.png"});
   if (draws) cases.push_back({"render p -o p2.png --width 400 --height 400 --save-scene scene.json", "scene.json"});
-  for (const auto& [command, output] : cases) {
-    CAPTURE(command);
+  for (const auto& one : cases) {
+    const auto& [command, output] = one;
+    CAPTURE(one.command);
     in.folder.write(output, "somebody's work");
     const std::size_t n_files = in.folder.n_files();
     const Outcome refused = run_espdiff(command, where);

@@ -213,8 +213,9 @@ TEST_CASE("an empty argument, as of a variable that is not set, is refused where
       {"compare a.pqr a.pqr --source-map ''", "--source-map"},
       {"compare a.pqr a.pqr --select ''", "--select"},
       {"ensemble --group A '' --group B a.pqr -o e", "A"}};
-  for (const auto& [arguments, before] : cases) {
-    CAPTURE(arguments);
+  for (const auto& one : cases) {
+    const auto& [arguments, before] = one;
+    CAPTURE(one.first);
     const Outcome outcome = run_espdiff(arguments, where);
     CHECK(outcome.status == 2);
     CHECK_MESSAGE(contains(outcome.err, "espdiff: there is an empty argument behind '" + before +
