@@ -218,10 +218,14 @@ std::vector<ResidueColumn> residue_columns(const CsvTable& residues) {
 }
 
 std::string name_of_input(const PairFiles& files, const std::string& role) {
+  std::string name = role;
   for (const RecordJson& input : files.record.value("inputs", RecordJson::array())) {
-    if (text_of(input, "role") == role) return std::filesystem::path(text_of(input, "path")).filename().string();
+    const std::string its_role = text_of(input, "role");
+    // A state that was prepared is kept beside the result; the user's file stands behind it.
+    if (its_role == role || its_role == role + "_file")
+      name = std::filesystem::path(text_of(input, "path")).filename().string();
   }
-  return role;
+  return name;
 }
 
 std::string title_of(const PairFiles& files) {

@@ -68,7 +68,8 @@ struct ResidueColumn {
 };
 std::vector<ResidueColumn> residue_columns(const CsvTable& residues);
 
-/// The name of an input's file without its folder; the role itself if there is no such input.
+/// The name of an input's file without its folder, as the user gave it where the state was prepared; the role itself if
+/// there is no such input.
 std::string name_of_input(const PairFiles& files, const std::string& role);
 
 /// "mutant.pqr against wild.pqr"

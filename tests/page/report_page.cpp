@@ -1,5 +1,6 @@
 // report_page.cpp: a result as a page: what it holds, that hostile texts stay texts, and that a browser draws it.
 #include <doctest/doctest.h>
+#include <fstream>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -71,6 +72,16 @@ TEST_CASE("what is too large for a page is refused with the remedy") {
   CHECK_THROWS_WITH_AS(
       require_page_size(kMaxPageTriangles + 1, "out"),
       doctest::Contains("out.vtp: 500001 triangles; a page takes at most 500000: compare with a larger "), InputError);
+}
+
+TEST_CASE("a page of prepared states names the files that the user gave") {
+  if (!has_three()) return;
+  const SmallResult result;
+  auto json = nlohmann::ordered_json::parse(read_file(result.prefix + ".json"));
+  json["inputs"].push_back({{"role", "source_file"}, {"path", "entries/1t24.pdb"}, {"sha256", std::string(64, '0')}});
+  std::ofstream(result.prefix + ".json") << json.dump(2) << '\n';
+  const auto record = nlohmann::json::parse(element(report_page(result.prefix, ""), "record"));
+  CHECK(record.at("title") == "b.pqr against 1t24.pdb");
 }
 
 TEST_CASE("a page holds the numbers, the residues and the verdict of its result, and fetches nothing") {
