@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-#include "compare/planted_cases.h"
+#include "input_checks/planted_cases.h"
 #include "real_pairs.h"
 
 namespace {

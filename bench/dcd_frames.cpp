@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/system_message.h"
+#include "base/text/system_message.h"
 #include "io/molecules/elements.h"
 
 namespace espdiff_bench {

@@ -17,11 +17,11 @@
 
 #include "base/counter_random.h"
 #include "ensemble/balanced_splits.h"
-#include "ensemble/ensemble_columns.h"
-#include "ensemble/ensemble_file.h"
-#include "statistics/mesh_graph.h"
+#include "ensemble/file/ensemble_columns.h"
+#include "ensemble/file/ensemble_file.h"
 #include "statistics/replicate_columns.h"
-#include "statistics/surface_test.h"
+#include "statistics/surface/mesh_graph.h"
+#include "statistics/surface/surface_test.h"
 
 using namespace espdiff;
 

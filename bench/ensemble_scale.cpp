@@ -13,10 +13,10 @@
 #include <string>
 
 #include "base/counter_random.h"
-#include "ensemble/ensemble_file.h"
-#include "ensemble/ensemble_result.h"
-#include "ensemble/states.h"
-#include "ensemble/template_values.h"
+#include "ensemble/file/ensemble_file.h"
+#include "ensemble/result/ensemble_result.h"
+#include "ensemble/result/states.h"
+#include "ensemble/result/template_values.h"
 #include "matrix/write_matrix.h"
 
 using namespace espdiff;

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "align/superpose.h"
+#include "align/geometry/superpose.h"
 #include "base/error.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"

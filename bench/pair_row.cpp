@@ -7,8 +7,8 @@
 #include <limits>
 #include <sstream>
 
-#include "align/rigid_domains.h"
-#include "report/metrics.h"
+#include "align/geometry/rigid_domains.h"
+#include "report/records/metrics.h"
 
 namespace espdiff_bench {
 namespace {

@@ -1,6 +1,6 @@
 // planted_pairing.cpp: errors of correspondence planted into crystal copies of one protein, and what the checks of the
 // inputs say of them and of the copies as they are; the table of bench/study.md.
-#include "compare/planted_pairing.h"
+#include "input_checks/planted_pairing.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "base/structure_options.h"
+#include "base/molecule/structure_options.h"
 #include "io/structures/read_structure.h"
 
 namespace {

@@ -23,8 +23,8 @@
 #include "io/files/atomic_file.h"
 #include "io/files/write_csv.h"
 #include "scene/comparison_files.h"
-#include "view/camera_view.h"
 #include "view/comparison_scene.h"
+#include "view/drawings/camera_view.h"
 #include "view/render_window.h"
 
 namespace {

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "statistics/columns.h"
-#include "statistics/mesh_graph.h"
 #include "statistics/planted_columns.h"
 #include "statistics/replicate_columns.h"
-#include "statistics/surface_test.h"
+#include "statistics/surface/mesh_graph.h"
+#include "statistics/surface/surface_test.h"
 
 using namespace espdiff;
 using espdiff_test::Normal;

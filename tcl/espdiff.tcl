@@ -35,8 +35,8 @@ namespace eval ::espdiff {
 
 ::espdiff::load_module
 foreach ::espdiff::part {
-    files options metrics commands manual jobs endpoint vmd_molecule vmd_view vmd_volume compute potential
-    ensemble ensemble_frames draw report figure drawing_watch script_words saved_state linked_view highlight letters legend picked matrix atoms atom_colors plot plot_file averaged_map frame_maps trajectory trajectory_steps view
+    files options metrics commands manual jobs endpoint vmd/vmd_molecule vmd/vmd_view vmd/vmd_volume compute potential
+    ensemble vmd/ensemble_frames vmd/draw report vmd/figure vmd/drawing_watch script_words vmd/saved_state vmd/linked_view vmd/highlight vmd/letters vmd/legend vmd/picked matrix vmd/atoms vmd/atom_colors plot plot_file vmd/averaged_map vmd/frame_maps trajectory trajectory_steps vmd/view
     doctor
 } {
     source [file join $::espdiff::directory $::espdiff::part.tcl]

@@ -21,8 +21,8 @@
 #include "plot/colour_map.h"
 #include "potential/potential_plan.h"
 #include "potential/potential_settings.h"
-#include "prepare/pdb2pqr.h"
-#include "report/metrics.h"
+#include "prepare/charges/pdb2pqr.h"
+#include "report/records/metrics.h"
 #include "system/this_process.h"
 #include "tcl_values.h"
 

@@ -8,7 +8,7 @@
 #include "tcl_values.h"
 #include "vertex_quantity.h"
 #ifdef ESPDIFF_HAVE_HDF5
-#include "ensemble/ensemble_file.h"
+#include "ensemble/file/ensemble_file.h"
 #include "ensemble_object.h"
 #endif
 

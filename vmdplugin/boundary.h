@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/translate.h"
+#include "base/text/translate.h"
 
 namespace espdiff {
 

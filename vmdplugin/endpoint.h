@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/molecule/unit_cell.h"
 #include "base/types.h"
-#include "base/unit_cell.h"
 #include "potential/potential_settings.h"
 #include "study/state.h"
 #include "tcl_values.h"

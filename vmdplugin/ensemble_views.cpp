@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_run.h"
+#include "ensemble/file/ensemble_file.h"
+#include "ensemble/result/write_ensemble.h"
 #include "ensemble/template_matrix.h"
-#include "ensemble/write_ensemble.h"
 #include "ensemble_object.h"
 #endif
 

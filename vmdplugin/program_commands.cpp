@@ -1,7 +1,7 @@
 // program_commands.cpp: start_program and program_state run another program, in a private_folder. Tcl's exec is not
 // used: it forks, which fails if VMD with a trajectory has reserved too much address space.
 #include "base/error.h"
-#include "base/system_message.h"
+#include "base/text/system_message.h"
 #include "commands.h"
 #include "system/child_process.h"
 #include "system/permissions.h"

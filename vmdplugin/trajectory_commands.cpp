@@ -2,7 +2,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "base/surface_parts.h"
+#include "base/molecule/surface_parts.h"
 #include "commands.h"
 #include "engine/engine.h"
 #include "frames/frame_range.h"

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "certificate/result.h"
 #include "ensemble_views.h"
-#include "report/potential_json.h"
+#include "report/sections/potential_json.h"
 
 namespace espdiff::vmdplugin {
 namespace {

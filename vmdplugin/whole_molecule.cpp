@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "align/unwrap.h"
+#include "align/geometry/unwrap.h"
 #include "base/error.h"
 #include "potential/potential.h"
 

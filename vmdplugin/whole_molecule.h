@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "base/molecule/unit_cell.h"
 #include "base/types.h"
-#include "base/unit_cell.h"
 
 namespace espdiff::vmdplugin {
 

@@ -8,9 +8,9 @@
 #include "cuda/certificate/weighted_order.h"
 #include "cuda/device/spatial_order.h"
 #include "cuda/device/unwrap.h"
-#include "cuda/surface/adjacency.h"
-#include "cuda/surface/density_at_points.h"
+#include "cuda/surface/density/density_at_points.h"
 #include "cuda/surface/distances_to_triangles.h"
+#include "cuda/surface/mesh/adjacency.h"
 #include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

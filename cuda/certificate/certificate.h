@@ -2,9 +2,9 @@
 // irregularity.
 #pragma once
 
-#include "cuda/surface/atom_cells.h"
-#include "cuda/surface/mesh.h"
-#include "cuda/surface/triangle_tree.h"
+#include "cuda/surface/density/atom_cells.h"
+#include "cuda/surface/mesh/mesh.h"
+#include "cuda/surface/mesh/triangle_tree.h"
 #include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

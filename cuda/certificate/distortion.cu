@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "cuda/certificate/weighted_order.h"
-#include "cuda/surface/adjacency.h"
+#include "cuda/surface/mesh/adjacency.h"
 #include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

@@ -1,7 +1,7 @@
 // distortion.h: how much a mapping stretches and compresses the surface.
 #pragma once
 
-#include "cuda/surface/mesh.h"
+#include "cuda/surface/mesh/mesh.h"
 #include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "cuda/certificate/triangle_pairs.h"
-#include "cuda/surface/mesh.h"
+#include "cuda/surface/mesh/mesh.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -6,8 +6,8 @@
 
 #include "cuda/certificate/fans.h"
 #include "cuda/certificate/triangle_pairs.h"
-#include "cuda/surface/point_sums.h"
-#include "cuda/surface/triangle_tree.h"
+#include "cuda/surface/density/point_sums.h"
+#include "cuda/surface/mesh/triangle_tree.h"
 #include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

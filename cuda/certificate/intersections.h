@@ -1,7 +1,7 @@
 // intersections.h: counts the pairs of triangles of a closed mesh that intersect.
 #pragma once
 
-#include "cuda/surface/mesh.h"
+#include "cuda/surface/mesh/mesh.h"
 #include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "cuda/surface/adjacency.h"
+#include "cuda/surface/mesh/adjacency.h"
 #include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

@@ -1,7 +1,7 @@
 // metrics.h: area-weighted differences of two potentials.
 #pragma once
 
-#include "cuda/surface/mesh.h"
+#include "cuda/surface/mesh/mesh.h"
 #include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

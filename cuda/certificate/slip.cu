@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "cuda/device/sort.h"
 #include "cuda/device/spatial_order.h"
-#include "cuda/surface/point_sums.h"
-#include "cuda/surface/vertex_residues.h"
+#include "cuda/surface/density/point_sums.h"
+#include "cuda/surface/density/vertex_residues.h"
 #include "engine/morph_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

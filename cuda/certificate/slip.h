@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cuda/surface/mesh.h"
+#include "cuda/surface/mesh/mesh.h"
 
 namespace espdiff {
 struct MovingAtom;

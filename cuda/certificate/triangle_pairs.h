@@ -6,8 +6,8 @@
 #pragma once
 
 #include "cuda/device/orientation.h"
-#include "cuda/surface/mesh.h"
-#include "cuda/surface/triangle_tree.h"
+#include "cuda/surface/mesh/mesh.h"
+#include "cuda/surface/mesh/triangle_tree.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cuda/deform/deform.h"
-#include "cuda/surface/adjacency.h"
+#include "cuda/surface/mesh/adjacency.h"
 #include "cuda/surface/sample.h"
 #include "engine/deform_stage.h"
 

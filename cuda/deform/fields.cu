@@ -3,8 +3,8 @@
 
 #include <cstring>
 
+#include "cuda/surface/mesh/triangle_tree.h"
 #include "cuda/surface/sample.h"
-#include "cuda/surface/triangle_tree.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/progress.h"
-#include "cuda/surface/grid.h"
-#include "cuda/surface/mesh.h"
+#include "cuda/surface/density/grid.h"
+#include "cuda/surface/mesh/mesh.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "cuda/surface/grid.h"
+#include "cuda/surface/density/grid.h"
 #include "engine/deform_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cuda/morph/moving_atoms.h"
-#include "cuda/surface/point_sums.h"
+#include "cuda/surface/density/point_sums.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

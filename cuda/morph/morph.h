@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "cuda/surface/atom_cells.h"
-#include "cuda/surface/mesh.h"
+#include "cuda/surface/density/atom_cells.h"
+#include "cuda/surface/mesh/mesh.h"
 #include "engine/morph_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

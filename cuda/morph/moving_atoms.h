@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "cuda/surface/atom_cells.h"
+#include "cuda/surface/density/atom_cells.h"
 #include "engine/morph_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cuda/morph/moving_atoms.h"
-#include "cuda/surface/mesh.h"
+#include "cuda/surface/mesh/mesh.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -2,7 +2,7 @@
 // limit.
 #include "cuda/device/spatial_order.h"
 #include "cuda/morph/moving_surface.h"
-#include "cuda/surface/split_edges.h"
+#include "cuda/surface/mesh/split_edges.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/progress.h"
 #include "cuda/potential/pme.h"
-#include "cuda/surface/mesh.h"
+#include "cuda/surface/mesh/mesh.h"
 #include "cuda/surface/sample.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

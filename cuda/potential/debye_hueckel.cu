@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cuda/surface/gaussian.h"
+#include "cuda/surface/density/gaussian.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cuda/potential/pb_atoms.h"
-#include "cuda/surface/grid.h"
+#include "cuda/surface/density/grid.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

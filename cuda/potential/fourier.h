@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "cuda/device/device.h"
-#include "cuda/surface/gaussian.h"
+#include "cuda/surface/density/gaussian.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

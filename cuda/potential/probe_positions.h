@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "cuda/potential/pb_atoms.h"
-#include "cuda/surface/atom_cells.h"
+#include "cuda/surface/density/atom_cells.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cuda/surface/bspline.h"
+#include "cuda/surface/density/bspline.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "cuda/surface/triangle_tree.h"
+#include "cuda/surface/mesh/triangle_tree.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

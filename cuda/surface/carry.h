@@ -1,8 +1,8 @@
 // carry.h: carries points by a mapping known at a mesh's vertices, or by rigid motions of atoms.
 #pragma once
 
-#include "cuda/surface/atom_cells.h"
-#include "cuda/surface/mesh.h"
+#include "cuda/surface/density/atom_cells.h"
+#include "cuda/surface/mesh/mesh.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "cuda/surface/carry.h"
-#include "cuda/surface/point_sums.h"
+#include "cuda/surface/density/point_sums.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

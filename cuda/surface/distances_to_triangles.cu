@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "cuda/device/spatial_order.h"
-#include "cuda/surface/point_sums.h"
+#include "cuda/surface/density/point_sums.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

@@ -1,7 +1,7 @@
 // distances_to_triangles.h: distances of many points to a surface, in two forms with the same bits.
 #pragma once
 
-#include "cuda/surface/triangle_tree.h"
+#include "cuda/surface/mesh/triangle_tree.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -1,8 +1,8 @@
 // isosurface.h: marching tetrahedra: the closed surface where a density on a lattice passes an isovalue.
 #pragma once
 
-#include "cuda/surface/grid.h"
-#include "cuda/surface/mesh.h"
+#include "cuda/surface/density/grid.h"
+#include "cuda/surface/mesh/mesh.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -1,7 +1,7 @@
 // level_set_curvature.cu: mean curvature of the analytic isosurface, from the density's first and second derivatives.
 #include "cuda/surface/level_set_curvature.h"
 
-#include "cuda/surface/point_sums.h"
+#include "cuda/surface/density/point_sums.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

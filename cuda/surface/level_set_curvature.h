@@ -1,8 +1,8 @@
 // level_set_curvature.h: mean curvature of the analytic isosurface at the vertices of a mesh on it.
 #pragma once
 
-#include "cuda/surface/atom_cells.h"
-#include "cuda/surface/mesh.h"
+#include "cuda/surface/density/atom_cells.h"
+#include "cuda/surface/mesh/mesh.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

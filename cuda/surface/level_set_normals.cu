@@ -2,8 +2,8 @@
 #include "cuda/surface/level_set_normals.h"
 
 #include "cuda/device/spatial_order.h"
-#include "cuda/surface/adjacency.h"
-#include "cuda/surface/density_at_points.h"
+#include "cuda/surface/density/density_at_points.h"
+#include "cuda/surface/mesh/adjacency.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

@@ -2,7 +2,7 @@
 #include "cuda/surface/project.h"
 
 #include "cuda/device/spatial_order.h"
-#include "cuda/surface/density_sums.h"
+#include "cuda/surface/density/density_sums.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

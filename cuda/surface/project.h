@@ -1,8 +1,8 @@
 // project.h: projection onto the analytic isosurface by Newton's method.
 #pragma once
 
-#include "cuda/surface/atom_cells.h"
-#include "cuda/surface/mesh.h"
+#include "cuda/surface/density/atom_cells.h"
+#include "cuda/surface/mesh/mesh.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

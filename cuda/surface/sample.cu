@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "cuda/surface/bspline.h"
+#include "cuda/surface/density/bspline.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

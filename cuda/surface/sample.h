@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "cuda/surface/charge_sums.h"
-#include "cuda/surface/grid.h"
-#include "cuda/surface/mesh.h"
+#include "cuda/surface/density/charge_sums.h"
+#include "cuda/surface/density/grid.h"
+#include "cuda/surface/mesh/mesh.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -15,8 +15,8 @@
 #include "certificate/slip.h"
 #include "engine/engine.h"
 #include "io/files/check_outputs.h"
-#include "report/metrics.h"
-#include "report/potential_json.h"
+#include "report/records/metrics.h"
+#include "report/sections/potential_json.h"
 #include "report/write_compare.h"
 #include "run.h"
 

@@ -9,8 +9,8 @@
 #include <nanobind/stl/vector.h>
 
 #include "engine/engine.h"
-#include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_study.h"
+#include "ensemble/file/ensemble_file.h"
 #include "ensemble_result.h"
 #include "frames/frame_range.h"
 #include "held.h"

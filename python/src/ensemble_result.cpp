@@ -11,8 +11,8 @@
 
 #include "arrays.h"
 #include "base/error.h"
-#include "ensemble/ensemble_file.h"
-#include "ensemble/write_ensemble.h"
+#include "ensemble/file/ensemble_file.h"
+#include "ensemble/result/write_ensemble.h"
 
 namespace espdiff::python {
 namespace {

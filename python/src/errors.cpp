@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/translate.h"
+#include "base/text/translate.h"
 
 namespace espdiff::python {
 namespace {

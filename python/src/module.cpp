@@ -22,7 +22,7 @@
 #include "potential.h"
 #include "potential/potential_settings.h"
 #include "prepare.h"
-#include "report/metrics.h"
+#include "report/records/metrics.h"
 #include "series.h"
 #include "state.h"
 #include "surface.h"

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "inputs.h"
-#include "report/preparation_json.h"
+#include "report/sections/preparation_json.h"
 #include "run.h"
 
 namespace espdiff::python {

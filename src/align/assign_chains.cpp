@@ -6,7 +6,7 @@
 #include <limits>
 #include <tuple>
 
-#include "align/superpose.h"
+#include "align/geometry/superpose.h"
 #include "base/error.h"
 #include "base/progress.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/pairing.h"
+#include "base/molecule/pairing.h"
 #include "base/types.h"
 
 namespace espdiff {

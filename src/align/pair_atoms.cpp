@@ -9,7 +9,7 @@
 #include "align/pair_residues.h"
 #include "align/residue_names.h"
 #include "base/error.h"
-#include "base/residue_label.h"
+#include "base/molecule/residue_label.h"
 
 namespace espdiff {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <tuple>
 
-#include "align/superpose.h"
+#include "align/geometry/superpose.h"
 #include "base/error.h"
 
 namespace espdiff {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "align/pair_residues.h"
-#include "base/pairing.h"
+#include "base/molecule/pairing.h"
 
 namespace espdiff {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "align/residue_names.h"
-#include "base/pairing.h"
+#include "base/molecule/pairing.h"
 #include "base/types.h"
 
 namespace espdiff {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/pairing.h"
+#include "base/molecule/pairing.h"
 #include "base/types.h"
 
 namespace espdiff {

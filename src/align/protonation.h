@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/message.h"
-#include "base/pairing.h"
+#include "base/molecule/pairing.h"
 #include "base/types.h"
 
 namespace espdiff {

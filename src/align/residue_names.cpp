@@ -6,7 +6,7 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "base/water.h"
+#include "base/molecule/water.h"
 
 namespace espdiff {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/pairing.h"
+#include "base/molecule/pairing.h"
 #include "base/types.h"
 
 namespace espdiff {

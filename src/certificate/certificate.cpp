@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "base/formatted.h"
-#include "base/residue_label.h"
-#include "base/short_numbers.h"
+#include "base/molecule/residue_label.h"
+#include "base/text/short_numbers.h"
 #include "base/triangle_areas.h"
 #include "certificate/own_potentials.h"
 #include "certificate/slip.h"

@@ -5,11 +5,11 @@
 #include <limits>
 #include <utility>
 
-#include "align/nearest_point.h"
+#include "align/geometry/nearest_point.h"
+#include "align/geometry/superpose.h"
 #include "align/pair_residues.h"
-#include "align/superpose.h"
-#include "base/earlier_patch.h"
 #include "base/error.h"
+#include "base/molecule/earlier_patch.h"
 
 namespace espdiff {
 namespace {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "align/superpose.h"
-#include "base/earlier_patch.h"
+#include "align/geometry/superpose.h"
+#include "base/molecule/earlier_patch.h"
+#include "base/molecule/surface_parts.h"
 #include "base/not_a_number.h"
-#include "base/short_numbers.h"
-#include "base/surface_parts.h"
+#include "base/text/short_numbers.h"
 #include "certificate/certificate.h"
 #include "certificate/place_patch.h"
 #include "certificate/result.h"

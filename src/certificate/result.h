@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/message.h"
-#include "base/pairing.h"
+#include "base/molecule/pairing.h"
 #include "base/types.h"
 #include "certificate/trusted_area.h"
 #include "certificate/uncovered_surface.h"

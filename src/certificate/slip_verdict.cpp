@@ -3,10 +3,10 @@
 #include <cmath>
 #include <map>
 
+#include "align/geometry/rigid_domains.h"
 #include "align/residue_names.h"
-#include "align/rigid_domains.h"
-#include "base/residue_label.h"
-#include "base/short_numbers.h"
+#include "base/molecule/residue_label.h"
+#include "base/text/short_numbers.h"
 #include "certificate/slip.h"
 
 namespace espdiff {

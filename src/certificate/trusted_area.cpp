@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/formatted.h"
+#include "base/molecule/residue_label.h"
 #include "base/not_a_number.h"
-#include "base/residue_label.h"
 #include "base/triangle_areas.h"
 #include "certificate/result.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/pairing.h"
+#include "base/molecule/pairing.h"
 #include "base/types.h"
 
 namespace espdiff {

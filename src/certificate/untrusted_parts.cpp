@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "align/chain_links.h"
-#include "base/residue_label.h"
-#include "base/short_numbers.h"
+#include "base/molecule/residue_label.h"
+#include "base/text/short_numbers.h"
 #include "certificate/result.h"
 #include "certificate/trusted_area.h"
 

@@ -12,17 +12,17 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/printable.h"
-#include "base/system_message.h"
-#include "base/translate.h"
+#include "base/text/printable.h"
+#include "base/text/system_message.h"
+#include "base/text/translate.h"
 #include "base/version.h"
-#include "cli/help.h"
-#include "cli/next_command.h"
-#include "cli/spelling.h"
 #include "cli/terminal_progress.h"
 #include "cli/verbs.h"
 #include "cli/verdict_status.h"
-#include "cli/words.h"
+#include "cli/words/help.h"
+#include "cli/words/next_command.h"
+#include "cli/words/spelling.h"
+#include "cli/words/words.h"
 #include "system/standard_streams.h"
 
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "cli/spelling.h"
+#include "cli/words/spelling.h"
 #include "engine/select_engine.h"
 #include "io/files/write_csv.h"
 #include "io/grids/read_grid.h"

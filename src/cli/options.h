@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/handles.h"
-#include "base/structure_options.h"
+#include "base/molecule/structure_options.h"
 #include "io/grids/read_grid.h"
 #include "options/settings.h"
 #include "potential/potential.h"

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "base/error.h"
-#include "base/system_message.h"
+#include "base/text/system_message.h"
 
 namespace espdiff::cli {
 namespace {

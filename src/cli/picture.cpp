@@ -5,7 +5,7 @@
 #if defined(ESPDIFF_HAVE_VTK)
 #include <cstdio>
 
-#include "base/printable.h"
+#include "base/text/printable.h"
 #include "view/display.h"
 #include "view/render_surface.h"
 #endif

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/structure_options.h"
+#include "base/molecule/structure_options.h"
 #include "base/types.h"
 #include "cli/map_options.h"
 #include "cli/options.h"

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "align/rigid_domains.h"
+#include "align/geometry/rigid_domains.h"
 #include "base/not_a_number.h"
 #include "certificate/certificate.h"
 #include "certificate/slip.h"

@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "align/compared_chains.h"
+#include "align/geometry/rigid_domains.h"
+#include "align/geometry/superpose.h"
 #include "align/paired_residues.h"
 #include "align/protonation.h"
-#include "align/rigid_domains.h"
-#include "align/superpose.h"
 #include "base/error.h"
 #include "base/handles.h"
-#include "base/short_numbers.h"
+#include "base/text/short_numbers.h"
 #include "certificate/certificate.h"
 #include "certificate/own_potentials.h"
 #include "certificate/residue_rows.h"

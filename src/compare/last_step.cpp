@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "align/geometry/superpose.h"
 #include "align/pair_atoms.h"
 #include "align/paired_residues.h"
-#include "align/superpose.h"
 #include "base/error.h"
 #include "base/not_a_number.h"
 #include "engine/engine.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/short_numbers.h"
-#include "base/surface_parts.h"
+#include "base/molecule/surface_parts.h"
+#include "base/text/short_numbers.h"
 #include "base/triangle_areas.h"
 #include "causes/causes.h"
 #include "causes/reading.h"

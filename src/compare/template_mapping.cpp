@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "align/geometry/superpose.h"
 #include "align/paired_residues.h"
-#include "align/superpose.h"
 #include "base/error.h"
 #include "causes/causes.h"
 #include "certificate/certificate.h"

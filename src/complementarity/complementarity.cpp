@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "align/geometry/superpose.h"
 #include "align/paired_residues.h"
-#include "align/superpose.h"
 #include "base/error.h"
 #include "base/formatted.h"
 #include "base/not_a_number.h"

@@ -8,14 +8,14 @@
 #include <nlohmann/json.hpp>
 
 #include "base/formatted.h"
+#include "base/molecule/residue_label.h"
 #include "base/not_a_number.h"
-#include "base/residue_label.h"
 #include "io/files/atomic_file.h"
 #include "io/files/write_csv.h"
 #include "io/vtk/write_vtp.h"
-#include "report/json_number.h"
-#include "report/provenance.h"
-#include "report/text_lines.h"
+#include "report/records/text_lines.h"
+#include "report/sections/json_number.h"
+#include "report/sections/provenance.h"
 
 namespace espdiff {
 namespace {

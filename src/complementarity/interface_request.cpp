@@ -5,8 +5,8 @@
 #include <cctype>
 
 #include "base/error.h"
-#include "base/printable.h"
-#include "base/residue_label.h"
+#include "base/molecule/residue_label.h"
+#include "base/text/printable.h"
 #include "io/molecules/select_atoms.h"
 
 namespace espdiff {

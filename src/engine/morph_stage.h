@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "base/handles.h"
-#include "base/screw.h"
+#include "base/molecule/screw.h"
 #include "base/vector.h"
 
 namespace espdiff {

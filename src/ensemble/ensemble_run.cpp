@@ -9,15 +9,15 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/molecule/residue_label.h"
 #include "base/not_a_number.h"
-#include "base/residue_label.h"
 #include "compare/template_mapping.h"
-#include "ensemble/ensemble_file.h"
+#include "ensemble/file/ensemble_file.h"
 #include "field/field_kinds.h"
 #include "io/files/check_outputs.h"
 #include "matrix/matrix_run.h"
 #include "options/options.h"
-#include "statistics/mesh_graph.h"
+#include "statistics/surface/mesh_graph.h"
 
 namespace espdiff {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/handles.h"
 #include "base/progress.h"
-#include "ensemble/ensemble_plan.h"
+#include "ensemble/frames/ensemble_plan.h"
 #include "mapping/input.h"
 #include "matrix/matrix.h"
 

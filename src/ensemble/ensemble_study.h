@@ -11,9 +11,9 @@
 #include "base/handles.h"
 #include "base/message.h"
 #include "base/progress.h"
-#include "ensemble/ensemble_inputs.h"
-#include "ensemble/ensemble_result.h"
 #include "ensemble/ensemble_run.h"
+#include "ensemble/frames/ensemble_inputs.h"
+#include "ensemble/result/ensemble_result.h"
 #include "options/options.h"
 
 namespace espdiff {

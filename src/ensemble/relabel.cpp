@@ -4,8 +4,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "ensemble/ensemble_file.h"
-#include "ensemble/replicate_request.h"
+#include "ensemble/file/ensemble_file.h"
+#include "ensemble/frames/replicate_request.h"
 #include "frames/frame_range.h"
 
 namespace espdiff {

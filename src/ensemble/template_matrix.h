@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/structure_options.h"
+#include "base/molecule/structure_options.h"
 #include "matrix/matrix_run.h"
 #include "options/options.h"
 

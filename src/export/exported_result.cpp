@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 #include "base/version.h"
 #include "io/structures/run_record.h"
 #include "plot/automatic_range.h"

@@ -7,7 +7,7 @@
 
 #include "base/types.h"
 #include "plot/colour_map.h"
-#include "report/pair_files.h"
+#include "report/records/pair_files.h"
 
 namespace espdiff {
 

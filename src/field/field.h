@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/handles.h"
-#include "base/quantity.h"
+#include "base/molecule/quantity.h"
 #include "base/types.h"
 #include "engine/field_stage.h"
 #include "field/field_result.h"

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "base/residue_label.h"
+#include "base/molecule/residue_label.h"
 #include "field/file_pattern.h"
 #include "io/files/read_csv.h"
 #include "io/files/sha256.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/quantity.h"
+#include "base/molecule/quantity.h"
 #include "base/types.h"
 
 namespace espdiff {

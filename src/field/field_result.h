@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/quantity.h"
+#include "base/molecule/quantity.h"
 #include "base/types.h"
 #include "engine/certificate_stage.h"
 

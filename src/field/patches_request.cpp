@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 #include "field/field_patches.h"
 #include "io/text/text_cursor.h"
 

@@ -1,7 +1,7 @@
 // read_field.cpp: the three ways in which a field is made, at the vertices of a surface.
 #include "field/read_field.h"
 
-#include "align/superpose.h"
+#include "align/geometry/superpose.h"
 #include "engine/engine.h"
 
 namespace espdiff {

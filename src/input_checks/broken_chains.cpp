@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "base/residue_label.h"
-#include "base/short_numbers.h"
+#include "base/molecule/residue_label.h"
+#include "base/text/short_numbers.h"
 #include "input_checks/input_warnings.h"
 #include "input_checks/surroundings.h"
 

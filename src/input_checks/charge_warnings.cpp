@@ -9,8 +9,8 @@
 #include "align/protonation.h"
 #include "align/residue_charges.h"
 #include "base/formatted.h"
-#include "base/residue_label.h"
-#include "base/short_numbers.h"
+#include "base/molecule/residue_label.h"
+#include "base/text/short_numbers.h"
 #include "input_checks/input_warnings.h"
 
 namespace espdiff {

@@ -5,13 +5,13 @@
 #include <limits>
 #include <map>
 
+#include "align/geometry/superpose.h"
 #include "align/pair_residues.h"
 #include "align/paired_residues.h"
 #include "align/residue_charges.h"
-#include "align/superpose.h"
 #include "base/formatted.h"
-#include "base/residue_label.h"
-#include "base/short_numbers.h"
+#include "base/molecule/residue_label.h"
+#include "base/text/short_numbers.h"
 #include "base/triangle_areas.h"
 #include "input_checks/input_warnings.h"
 

@@ -8,8 +8,8 @@
 
 #include "align/pair_residues.h"
 #include "base/formatted.h"
-#include "base/residue_label.h"
-#include "base/short_numbers.h"
+#include "base/molecule/residue_label.h"
+#include "base/text/short_numbers.h"
 #include "input_checks/input_warnings.h"
 
 namespace espdiff {

@@ -8,12 +8,12 @@
 #include <string_view>
 #include <tuple>
 
-#include "align/chain_motions.h"
+#include "align/geometry/chain_motions.h"
+#include "align/geometry/superpose.h"
 #include "align/pair_residues.h"
-#include "align/superpose.h"
 #include "base/error.h"
-#include "base/residue_label.h"
-#include "base/short_numbers.h"
+#include "base/molecule/residue_label.h"
+#include "base/text/short_numbers.h"
 #include "input_checks/surroundings.h"
 
 namespace espdiff {

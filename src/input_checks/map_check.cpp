@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "align/superpose.h"
+#include "align/geometry/superpose.h"
 #include "base/error.h"
 #include "base/not_a_number.h"
 #include "base/units.h"

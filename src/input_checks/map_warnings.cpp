@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
-#include "base/short_numbers.h"
+#include "base/text/short_numbers.h"
 #include "input_checks/map_check.h"
 #include "mapping/input.h"
 #include "mapping/map_recipe.h"

@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "align/nearest_point.h"
-#include "base/residue_label.h"
-#include "base/short_numbers.h"
+#include "align/geometry/nearest_point.h"
+#include "base/molecule/residue_label.h"
+#include "base/text/short_numbers.h"
 #include "input_checks/input_warnings.h"
 #include "input_checks/surroundings.h"
 

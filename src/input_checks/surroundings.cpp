@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "align/geometry/superpose.h"
 #include "align/paired_residues.h"
-#include "align/superpose.h"
 #include "base/error.h"
 
 namespace espdiff {

@@ -1,7 +1,7 @@
 // build_surface.cpp: density, surface, components, projection and regularization of one molecule.
 #include "mapping/build_surface.h"
 
-#include "align/superpose.h"
+#include "align/geometry/superpose.h"
 #include "base/error.h"
 #include "base/formatted.h"
 #include "engine/engine.h"

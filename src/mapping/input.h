@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "base/handles.h"
+#include "base/molecule/surface_parts.h"
 #include "base/progress.h"
-#include "base/surface_parts.h"
 #include "base/types.h"
 #include "field/field_side.h"
 

@@ -9,7 +9,7 @@
 
 #include "base/handles.h"
 #include "matrix/variants.h"
-#include "report/metrics.h"
+#include "report/records/metrics.h"
 
 namespace espdiff {
 

@@ -13,7 +13,7 @@
 #include "options/input_settings.h"
 #include "options/options.h"
 #include "options/settings.h"
-#include "report/field_json.h"
+#include "report/sections/field_json.h"
 
 namespace espdiff {
 namespace {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/system_message.h"
+#include "base/text/system_message.h"
 #include "io/files/atomic_file.h"
 #include "io/files/read_input.h"
 #include "io/files/sha256.h"

@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
-#include "base/earlier_patch.h"
 #include "base/error.h"
-#include "base/input_options.h"
+#include "base/molecule/earlier_patch.h"
+#include "base/molecule/input_options.h"
 #include "compare/compare_fields.h"
 #include "field/field_kinds.h"
 #include "io/files/read_csv.h"

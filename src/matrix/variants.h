@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "base/structure_options.h"
+#include "base/molecule/structure_options.h"
 #include "base/types.h"
 #include "mapping/input.h"
 #include "prepare/load_state.h"
-#include "report/provenance.h"
+#include "report/sections/provenance.h"
 
 namespace espdiff {
 

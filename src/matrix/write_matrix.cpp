@@ -4,11 +4,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/formats.h"
+#include "base/text/formats.h"
 #include "io/files/atomic_file.h"
 #include "io/files/write_csv.h"
 #include "matrix/write_through_template.h"
-#include "report/json_number.h"
+#include "report/sections/json_number.h"
 #include "report/write_compare.h"
 
 namespace espdiff {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/formatted.h"
-#include "report/json_number.h"
+#include "report/sections/json_number.h"
 #include "report/write_compare.h"
 
 namespace espdiff {

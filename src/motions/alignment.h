@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/pairing.h"
-#include "base/rigid_domain.h"
+#include "base/molecule/pairing.h"
+#include "base/molecule/rigid_domain.h"
 #include "base/types.h"
 
 namespace espdiff {

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "align/nearest_point.h"
+#include "align/geometry/nearest_point.h"
 #include "align/paired_residues.h"
 #include "base/error.h"
 #include "motions/local_rotations.h"

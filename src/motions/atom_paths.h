@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/pairing.h"
+#include "base/molecule/pairing.h"
 #include "base/progress.h"
 #include "base/types.h"
 #include "engine/morph_stage.h"

@@ -3,10 +3,10 @@
 
 #include <limits>
 
-#include "align/chain_motions.h"
+#include "align/geometry/chain_motions.h"
+#include "align/geometry/rigid_domains.h"
+#include "align/geometry/superpose.h"
 #include "align/pair_atoms.h"
-#include "align/rigid_domains.h"
-#include "align/superpose.h"
 #include "base/error.h"
 #include "base/message.h"
 #include "motions/local_motions.h"

@@ -1,7 +1,7 @@
 // domain_motions.cpp: domain motions from the molecules' own frames to the common frame, and their inverses.
 #include "motions/domain_motions.h"
 
-#include "align/superpose.h"
+#include "align/geometry/superpose.h"
 #include "engine/engine.h"
 
 namespace espdiff {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/handles.h"
-#include "base/pairing.h"
-#include "base/rigid_domain.h"
-#include "base/screw.h"
+#include "base/molecule/pairing.h"
+#include "base/molecule/rigid_domain.h"
+#include "base/molecule/screw.h"
 #include "base/types.h"
 
 namespace espdiff {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "align/chain_links.h"
-#include "align/superpose.h"
+#include "align/geometry/superpose.h"
 #include "base/vector.h"
 
 namespace espdiff {

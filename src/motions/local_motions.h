@@ -1,7 +1,7 @@
 // local_motions.h: a rigid motion for each residue, from its neighbourhood along the chain and in space.
 #pragma once
 
-#include "base/pairing.h"
+#include "base/molecule/pairing.h"
 #include "base/types.h"
 #include "motions/domain_motions.h"
 

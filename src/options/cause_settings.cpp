@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "base/surface_parts.h"
+#include "base/molecule/surface_parts.h"
 #include "causes/reading.h"
 #include "options/input_settings.h"
 #include "options/options.h"

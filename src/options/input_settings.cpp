@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "base/printable.h"
-#include "base/surface_parts.h"
+#include "base/molecule/surface_parts.h"
+#include "base/text/printable.h"
 #include "options/options.h"
 #include "options/settings.h"
 

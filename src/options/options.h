@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "base/input_options.h"
-#include "base/pairing.h"
-#include "base/quantity.h"
+#include "base/molecule/input_options.h"
+#include "base/molecule/pairing.h"
+#include "base/molecule/quantity.h"
 #include "engine/deform_stage.h"
 #include "engine/morph_stage.h"
 

@@ -8,8 +8,8 @@
 #include <locale>
 #include <sstream>
 
+#include "align/geometry/rigid_domains.h"
 #include "align/pair_atoms.h"
-#include "align/rigid_domains.h"
 #include "base/error.h"
 #include "field/field_kinds.h"
 #include "field/field_patches.h"

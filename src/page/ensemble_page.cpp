@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/formats.h"
+#include "base/text/formats.h"
 #include "io/files/read_csv.h"
 #include "io/files/write_csv.h"
 #include "io/vtk/read_vtp.h"

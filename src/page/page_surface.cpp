@@ -2,7 +2,7 @@
 #include "page/page_surface.h"
 
 #include "base/error.h"
-#include "base/surface_parts.h"
+#include "base/molecule/surface_parts.h"
 #include "page/page_texts.h"
 #include "page/report_page.h"
 #include "plot/automatic_range.h"

@@ -6,14 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "base/surface_parts.h"
+#include "base/molecule/surface_parts.h"
 #include "io/files/write_csv.h"
 #include "page/assembled_page.h"
 #include "page/page_arrays.h"
 #include "page/page_molecule.h"
 #include "page/page_surface.h"
-#include "report/metrics.h"
-#include "report/pair_files.h"
+#include "report/records/metrics.h"
+#include "report/records/pair_files.h"
 
 namespace espdiff {
 namespace {

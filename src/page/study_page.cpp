@@ -14,9 +14,9 @@
 #include "page/assembled_page.h"
 #include "page/page_arrays.h"
 #include "plot/automatic_range.h"
-#include "report/field_json.h"
-#include "report/metrics.h"
-#include "report/pair_files.h"
+#include "report/records/metrics.h"
+#include "report/records/pair_files.h"
+#include "report/sections/field_json.h"
 
 namespace espdiff {
 namespace {

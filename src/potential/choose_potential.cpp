@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
-#include "base/water.h"
+#include "base/molecule/water.h"
 
 namespace espdiff {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "align/superpose.h"
+#include "align/geometry/superpose.h"
 #include "base/error.h"
-#include "base/water.h"
+#include "base/molecule/water.h"
 #include "engine/engine.h"
 #include "io/files/sha256.h"
 #include "mapping/map_recipe.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/molecule/unit_cell.h"
 #include "base/types.h"
-#include "base/unit_cell.h"
 #include "mapping/input.h"
 #include "potential/potential.h"
 

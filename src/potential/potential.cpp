@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "align/geometry/superpose.h"
+#include "align/geometry/unwrap.h"
 #include "align/pair_atoms.h"
-#include "align/superpose.h"
-#include "align/unwrap.h"
 #include "base/error.h"
-#include "base/water.h"
+#include "base/molecule/water.h"
 #include "engine/engine.h"
 #include "mapping/map_recipe.h"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "base/pairing.h"
+#include "base/molecule/pairing.h"
+#include "base/molecule/unit_cell.h"
 #include "base/types.h"
-#include "base/unit_cell.h"
 #include "engine/poisson_boltzmann.h"
 #include "engine/potential_stage.h"
 

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "io/molecules/select_atoms.h"
 #include "io/structures/structure_file.h"
-#include "prepare/pdb2pqr.h"
+#include "prepare/charges/pdb2pqr.h"
 
 namespace espdiff {
 

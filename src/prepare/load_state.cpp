@@ -13,7 +13,7 @@
 #include "io/structures/read_structure.h"
 #include "io/structures/read_topology.h"
 #include "io/structures/structure_file.h"
-#include "prepare/pdb2pqr.h"
+#include "prepare/charges/pdb2pqr.h"
 #include "prepare/take_charges.h"
 
 namespace espdiff {

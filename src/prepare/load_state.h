@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "base/input_options.h"
+#include "base/molecule/input_options.h"
+#include "base/molecule/structure_options.h"
+#include "base/molecule/unit_cell.h"
 #include "base/progress.h"
-#include "base/structure_options.h"
 #include "base/types.h"
-#include "base/unit_cell.h"
-#include "prepare/preparation.h"
+#include "prepare/charges/preparation.h"
 
 namespace espdiff {
 

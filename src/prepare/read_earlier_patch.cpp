@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "base/earlier_patch.h"
 #include "base/error.h"
-#include "base/residue_label.h"
+#include "base/molecule/earlier_patch.h"
+#include "base/molecule/residue_label.h"
 #include "io/files/read_input.h"
 #include "io/text/json_values.h"
 #include "io/text/text_cursor.h"

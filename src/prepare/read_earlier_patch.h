@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "base/input_options.h"
+#include "base/molecule/input_options.h"
 
 namespace espdiff {
 

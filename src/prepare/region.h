@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/input_options.h"
-#include "base/surface_parts.h"
+#include "base/molecule/input_options.h"
+#include "base/molecule/surface_parts.h"
 #include "base/types.h"
 
 namespace espdiff {

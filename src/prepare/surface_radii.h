@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/input_options.h"
+#include "base/molecule/input_options.h"
 #include "base/types.h"
 
 namespace espdiff {

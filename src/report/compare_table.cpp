@@ -3,15 +3,15 @@
 #include <cmath>
 
 #include "base/formatted.h"
-#include "base/short_numbers.h"
+#include "base/text/short_numbers.h"
 #include "certificate/trusted_area.h"
 #include "mapping/map_recipe.h"
 #include "options/options.h"
 #include "report/field_patches_report.h"
-#include "report/metrics.h"
-#include "report/record.h"
-#include "report/record_words.h"
-#include "report/text_lines.h"
+#include "report/records/metrics.h"
+#include "report/records/record.h"
+#include "report/records/record_words.h"
+#include "report/records/text_lines.h"
 #include "report/write_compare.h"
 
 namespace espdiff {

@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/formatted.h"
-#include "base/residue_label.h"
+#include "base/molecule/residue_label.h"
 #include "certificate/result.h"
 #include "io/files/write_csv.h"
-#include "report/json_number.h"
-#include "report/record.h"
+#include "report/records/record.h"
+#include "report/sections/json_number.h"
 
 namespace espdiff {
 namespace {

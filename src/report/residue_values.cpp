@@ -10,8 +10,8 @@
 #include "certificate/result.h"
 #include "io/files/atomic_file.h"
 #include "io/molecules/write_pdb.h"
-#include "report/metrics.h"
-#include "report/potential_json.h"
+#include "report/records/metrics.h"
+#include "report/sections/potential_json.h"
 
 namespace espdiff {
 namespace {

@@ -9,7 +9,7 @@
 #include "io/files/sha256.h"
 #include "io/molecules/write_pqr.h"
 #include "prepare/load_state.h"
-#include "report/provenance.h"
+#include "report/sections/provenance.h"
 #include "report/write_compare.h"
 
 namespace espdiff {

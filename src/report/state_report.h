@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "report/provenance.h"
+#include "report/sections/provenance.h"
 
 namespace espdiff {
 

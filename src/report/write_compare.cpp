@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "base/surface_parts.h"
+#include "base/molecule/surface_parts.h"
 #include "certificate/region_result.h"
 #include "certificate/result.h"
 #include "io/files/atomic_file.h"
@@ -22,12 +22,12 @@
 #include "mapping/map_recipe.h"
 #include "options/options.h"
 #include "potential/computed_map.h"
-#include "report/causes_report.h"
 #include "report/field_patches_report.h"
-#include "report/metrics.h"
-#include "report/potential_json.h"
-#include "report/probed_causes.h"
-#include "report/provenance.h"
+#include "report/records/metrics.h"
+#include "report/sections/causes_report.h"
+#include "report/sections/potential_json.h"
+#include "report/sections/probed_causes.h"
+#include "report/sections/provenance.h"
 
 namespace espdiff {
 /// Per-vertex arrays that the result implies.

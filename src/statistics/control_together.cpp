@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "statistics/null_maxima.h"
 #include "statistics/regression.h"
-#include "statistics/surface_test.h"
+#include "statistics/surface/null_maxima.h"
+#include "statistics/surface/surface_test.h"
 
 namespace espdiff {
 namespace {

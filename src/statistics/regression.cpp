@@ -10,9 +10,9 @@
 #include "base/error.h"
 #include "base/not_a_number.h"
 #include "base/progress.h"
-#include "statistics/mesh_graph.h"
-#include "statistics/null_maxima.h"
-#include "statistics/tfce.h"
+#include "statistics/surface/mesh_graph.h"
+#include "statistics/surface/null_maxima.h"
+#include "statistics/surface/tfce.h"
 #include "statistics/welch.h"
 
 namespace espdiff {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "statistics/surface_test.h"
+#include "statistics/surface/surface_test.h"
 
 namespace espdiff {
 

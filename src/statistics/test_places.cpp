@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
-#include "statistics/mesh_graph.h"
-#include "statistics/null_maxima.h"
-#include "statistics/surface_test.h"
+#include "statistics/surface/mesh_graph.h"
+#include "statistics/surface/null_maxima.h"
+#include "statistics/surface/surface_test.h"
 #include "statistics/welch.h"
 
 namespace espdiff {

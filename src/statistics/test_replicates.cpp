@@ -4,11 +4,11 @@
 #include <limits>
 
 #include "base/progress.h"
-#include "statistics/mesh_graph.h"
-#include "statistics/null_maxima.h"
 #include "statistics/permutations.h"
-#include "statistics/surface_test.h"
-#include "statistics/tfce.h"
+#include "statistics/surface/mesh_graph.h"
+#include "statistics/surface/null_maxima.h"
+#include "statistics/surface/surface_test.h"
+#include "statistics/surface/tfce.h"
 #include "statistics/welch.h"
 
 namespace espdiff {

@@ -6,10 +6,10 @@
 #include "base/not_a_number.h"
 #include "base/progress.h"
 #include "statistics/columns.h"
-#include "statistics/mesh_graph.h"
-#include "statistics/null_maxima.h"
 #include "statistics/replicate_columns.h"
-#include "statistics/surface_test.h"
+#include "statistics/surface/mesh_graph.h"
+#include "statistics/surface/null_maxima.h"
+#include "statistics/surface/surface_test.h"
 
 namespace espdiff {
 namespace {

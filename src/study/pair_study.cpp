@@ -5,7 +5,7 @@
 
 #include "compare/compare.h"
 #include "engine/engine.h"
-#include "prepare/preparation.h"
+#include "prepare/charges/preparation.h"
 #include "prepare/region.h"
 #include "prepare/surface_radii.h"
 #include "report/state_report.h"

@@ -1,7 +1,7 @@
 // series_source.h: the source of a series, whose surface is made once, and the frames that are compared with it.
 #pragma once
 
-#include "base/input_options.h"
+#include "base/molecule/input_options.h"
 #include "study/state.h"
 
 namespace espdiff {

@@ -11,7 +11,7 @@
 #include "io/molecules/select_atoms.h"
 #include "io/structures/structure_file.h"
 #include "options/options.h"
-#include "prepare/pdb2pqr.h"
+#include "prepare/charges/pdb2pqr.h"
 #include "report/state_report.h"
 
 namespace espdiff {

@@ -8,15 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "base/molecule/structure_options.h"
+#include "base/molecule/unit_cell.h"
 #include "base/progress.h"
-#include "base/structure_options.h"
 #include "base/types.h"
-#include "base/unit_cell.h"
 #include "mapping/input.h"
 #include "potential/computed_map.h"
 #include "potential/potential_plan.h"
 #include "prepare/load_state.h"
-#include "report/provenance.h"
+#include "report/sections/provenance.h"
 
 namespace espdiff {
 

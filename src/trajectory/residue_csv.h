@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/quantity.h"
+#include "base/molecule/quantity.h"
 #include "base/types.h"
 #include "io/files/appended_file.h"
 

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "io/files/read_csv.h"
 #include "io/files/write_csv.h"
-#include "report/metrics.h"
+#include "report/records/metrics.h"
 #include "trajectory/residue_csv.h"
 
 namespace espdiff {

@@ -10,7 +10,7 @@
 #include "io/files/sha256.h"
 #include "options/settings.h"
 #include "prepare/read_earlier_patch.h"
-#include "report/field_json.h"
+#include "report/sections/field_json.h"
 
 namespace espdiff {
 namespace {

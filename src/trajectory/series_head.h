@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/structure_options.h"
+#include "base/molecule/structure_options.h"
 #include "compare/series.h"
 #include "options/options.h"
 #include "trajectory/series_csv.h"

@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "certificate/region_result.h"
 #include "certificate/result.h"
-#include "report/metrics.h"
-#include "report/provenance.h"
+#include "report/records/metrics.h"
+#include "report/sections/provenance.h"
 #include "report/write_compare.h"
 
 namespace espdiff {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/types.h"
-#include "report/metrics.h"
+#include "report/records/metrics.h"
 
 namespace espdiff {
 

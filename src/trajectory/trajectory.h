@@ -12,7 +12,7 @@
 #include "compare/series.h"
 #include "mapping/input.h"
 #include "options/options.h"
-#include "report/provenance.h"
+#include "report/sections/provenance.h"
 #include "trajectory/residue_csv.h"
 #include "trajectory/series_csv.h"
 

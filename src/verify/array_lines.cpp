@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/formats.h"
 #include "base/formatted.h"
+#include "base/text/formats.h"
 #include "verify/mapped_file.h"
 #include "verify/target_surface.h"
 

@@ -11,10 +11,10 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "view/camera_view.h"
-#include "view/map_drawings.h"
-#include "view/molecule_actors.h"
-#include "view/residue_labels.h"
+#include "view/drawings/camera_view.h"
+#include "view/drawings/map_drawings.h"
+#include "view/drawings/molecule_actors.h"
+#include "view/drawings/residue_labels.h"
 #include "view/scene_legend.h"
 
 namespace espdiff {

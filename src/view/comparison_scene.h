@@ -13,10 +13,10 @@
 
 #include "scene/comparison_files.h"
 #include "scene/scene.h"
+#include "view/drawings/residue_labels.h"
 #include "view/panels.h"
-#include "view/residue_labels.h"
-#include "view/surface_geometry.h"
-#include "view/surface_mapper.h"
+#include "view/surface/surface_geometry.h"
+#include "view/surface/surface_mapper.h"
 
 class vtkActor;
 class vtkProp;

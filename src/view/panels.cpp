@@ -1,7 +1,7 @@
 // panels.cpp: the layouts.
 #include "view/panels.h"
 
-#include "view/legend.h"
+#include "view/drawings/legend.h"
 
 namespace espdiff {
 namespace {

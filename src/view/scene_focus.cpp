@@ -1,10 +1,10 @@
 // scene_focus.cpp: the part that a scene looks at, the causes of its difference, and labels in front of the surface.
 #include "base/error.h"
 #include "scene/surface_cover.h"
-#include "view/camera_view.h"
-#include "view/cause_drawings.h"
 #include "view/comparison_scene.h"
-#include "view/residue_labels.h"
+#include "view/drawings/camera_view.h"
+#include "view/drawings/cause_drawings.h"
+#include "view/drawings/residue_labels.h"
 
 namespace espdiff {
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <string>
 
-#include "view/camera_view.h"
-#include "view/cause_drawings.h"
 #include "view/comparison_scene.h"
-#include "view/legend.h"
+#include "view/drawings/camera_view.h"
+#include "view/drawings/cause_drawings.h"
+#include "view/drawings/legend.h"
 
 namespace espdiff {
 namespace {

@@ -12,9 +12,9 @@ namespace eval ::espdiff::gui {
     variable fitted_width 0     ;# width that the window was given on a small screen; 0: none was
     variable is_hidden 0        ;# the window was closed by VMD's menu, which keeps it
 
-    foreach part {widgets scrolled endpoint_form prepare_form presets settings_form run_bar result_view draw_form session_script
-        help_window matrix_form matrix_view heat_map residue_table residue_actions cause_view trajectory_form trajectory_view
-        trajectory_point residue_map line_plot ensemble_form ensemble_view ensemble_series remembered} {
+    foreach part {widgets scrolled forms/endpoint_form forms/prepare_form forms/presets forms/settings_form forms/run_bar result_view forms/draw_form session_script
+        help_window forms/matrix_form matrix_view heat_map residue_table residue_actions cause_view forms/trajectory_form trajectory_view
+        trajectory_point residue_map line_plot forms/ensemble_form ensemble_view ensemble_series remembered} {
         source [file join [file dirname [info script]] $part.tcl]
     }
     unset part

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "align/chain_motions.h"
-#include "base/screw.h"
+#include "align/geometry/chain_motions.h"
+#include "base/molecule/screw.h"
 #include "base/types.h"
 
 using namespace espdiff;

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "../support/test_data.h"
 #include "base/error.h"
 #include "made_molecule.h"
+#include "support/test_data.h"
 
 using namespace espdiff;
 using espdiff_test::MadeMolecule;

@@ -1,10 +1,10 @@
 // real_pairs.cpp: pairing and superposition of real molecules against known values.
 #include <doctest/doctest.h>
 
-#include "../support/test_data.h"
+#include "align/geometry/superpose.h"
 #include "align/pair_atoms.h"
-#include "align/superpose.h"
 #include "io/structures/read_structure.h"
+#include "support/test_data.h"
 
 using namespace espdiff;
 using espdiff_test::real_input;

@@ -1,15 +1,15 @@
 // rigid_domains.cpp: domains by chain, by name and by search; motions as screws; refusals.
-#include "align/rigid_domains.h"
+#include "align/geometry/rigid_domains.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <random>
 
-#include "../support/test_data.h"
-#include "align/superpose.h"
+#include "align/geometry/superpose.h"
 #include "base/error.h"
 #include "made_molecule.h"
+#include "support/test_data.h"
 
 using namespace espdiff;
 using espdiff_test::MadeMolecule;

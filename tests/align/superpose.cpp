@@ -1,6 +1,6 @@
 // superpose.cpp: known motions are recovered, reflections refused, and the principal frame does not depend on the
 // position.
-#include "align/superpose.h"
+#include "align/geometry/superpose.h"
 
 #include <doctest/doctest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "../support/test_data.h"
 #include "base/error.h"
+#include "support/test_data.h"
 
 using namespace espdiff;
 using espdiff_test::message_of;

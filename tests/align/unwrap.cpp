@@ -1,5 +1,5 @@
 // unwrap.cpp: molecules wrapped at a periodic cell's border become whole, wherever the border lies.
-#include "align/unwrap.h"
+#include "align/geometry/unwrap.h"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "align/superpose.h"
+#include "align/geometry/superpose.h"
 #include "base/error.h"
 
 using espdiff::shortest_image;

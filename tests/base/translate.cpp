@@ -1,5 +1,5 @@
 // translate.cpp: what the standard library throws becomes ours, with the file where there is one.
-#include "base/translate.h"
+#include "base/text/translate.h"
 
 #include <doctest/doctest.h>
 

@@ -11,8 +11,8 @@
 
 #include "cli/linked_outputs.h"
 #include "cli/run_espdiff.h"
+#include "io/frames/made_dcd.h"
 #include "io/frames/molfile_plugins.h"
-#include "io/made_dcd.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 

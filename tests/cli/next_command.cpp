@@ -5,8 +5,8 @@
 #include <sstream>
 #include <string>
 
-#include "cli/next_command.h"
 #include "cli/run_espdiff.h"
+#include "cli/words/next_command.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 

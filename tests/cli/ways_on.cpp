@@ -1,5 +1,5 @@
 // ways_on.cpp: which changes of a refused comparison are tried, and for how long.
-#include "cli/ways_on.h"
+#include "cli/words/ways_on.h"
 
 #include <doctest/doctest.h>
 

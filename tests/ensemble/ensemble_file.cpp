@@ -1,5 +1,5 @@
 // ensemble_file.cpp: the file that grows: resuming, damage, merging, and what is refused.
-#include "ensemble/ensemble_file.h"
+#include "ensemble/file/ensemble_file.h"
 
 #include <doctest/doctest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // ensemble_result.cpp: from a file of known values to patches, residues, noise and warnings.
-#include "ensemble/ensemble_result.h"
+#include "ensemble/result/ensemble_result.h"
 
 #include <doctest/doctest.h>
 
@@ -12,10 +12,10 @@
 #include <boost/math/distributions/non_central_t.hpp>
 #include <nlohmann/json.hpp>
 
+#include "ensemble/frames/replicate_request.h"
 #include "ensemble/planted_file.h"
 #include "ensemble/relabel.h"
-#include "ensemble/replicate_request.h"
-#include "ensemble/write_ensemble.h"
+#include "ensemble/result/write_ensemble.h"
 
 using namespace espdiff;
 using namespace espdiff_test;  // NOLINT: a test

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compare/template_mapping.h"
-#include "ensemble/ensemble_file.h"
+#include "ensemble/file/ensemble_file.h"
 #include "ensemble/planted_plan.h"
 #include "statistics/planted_columns.h"
 #include "support/test_data.h"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "ensemble/ensemble_plan.h"
+#include "ensemble/frames/ensemble_plan.h"
 
 namespace espdiff_test {
 

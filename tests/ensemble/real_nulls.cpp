@@ -7,8 +7,8 @@
 #include "engine/engine.h"
 #include "engine/select_engine.h"
 #include "ensemble/balanced_splits.h"
-#include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_study.h"
+#include "ensemble/file/ensemble_file.h"
 #include "statistics/replicate_columns.h"
 #include "support/test_data.h"
 

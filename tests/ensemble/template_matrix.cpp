@@ -14,11 +14,11 @@
 #include "base/error.h"
 #include "engine/engine.h"
 #include "ensemble/planted_file.h"
-#include "ensemble/template_values.h"
+#include "ensemble/result/template_values.h"
 #include "io/files/read_csv.h"
 #include "matrix/made_variants.h"
 #include "matrix/write_matrix.h"
-#include "statistics/mesh_graph.h"
+#include "statistics/surface/mesh_graph.h"
 #include "support/text.h"
 
 using namespace espdiff_test;  // NOLINT: a test

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "base/earlier_patch.h"
+#include "base/molecule/earlier_patch.h"
 #include "fuzz_file.h"
 #include "prepare/read_earlier_patch.h"
 

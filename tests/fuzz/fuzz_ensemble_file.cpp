@@ -3,7 +3,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "ensemble/ensemble_file.h"
+#include "ensemble/file/ensemble_file.h"
 #include "fuzz_file.h"
 #include "planted_ensemble.h"
 

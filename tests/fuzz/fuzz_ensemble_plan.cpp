@@ -1,5 +1,5 @@
 // fuzz_ensemble_plan.cpp: the description of the run (JSON) inside an ensemble's HDF5 file.
-#include "ensemble/ensemble_plan.h"
+#include "ensemble/frames/ensemble_plan.h"
 #include "fuzz_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 
 namespace espdiff_fuzz {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "../ensemble/planted_plan.h"
-#include "ensemble/ensemble_file.h"
+#include "ensemble/file/ensemble_file.h"
 
 namespace espdiff_fuzz {
 

@@ -13,8 +13,8 @@
 #include "io/structures/read_structure.h"
 #include "mapping/input.h"
 #include "options/options.h"
-#include "report/metrics.h"
-#include "report/provenance.h"
+#include "report/records/metrics.h"
+#include "report/sections/provenance.h"
 #include "report/write_compare.h"
 
 int main(int argc, char** argv) {

@@ -9,9 +9,9 @@
 
 #include "base/error.h"
 #include "cli/run_espdiff.h"
-#include "ensemble/ensemble_result.h"
 #include "ensemble/planted_file.h"
-#include "ensemble/write_ensemble.h"
+#include "ensemble/result/ensemble_result.h"
+#include "ensemble/result/write_ensemble.h"
 #include "page/browser.h"
 #include "page/page_texts.h"
 #include "page/result_page.h"

@@ -19,7 +19,7 @@
 #include "potential/potential.h"
 #include "potential/potential_series.h"
 #include "potential/potential_settings.h"
-#include "report/provenance.h"
+#include "report/sections/provenance.h"
 #include "report/write_compare.h"
 #include "support/test_data.h"
 

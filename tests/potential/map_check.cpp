@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "align/superpose.h"
+#include "align/geometry/superpose.h"
 #include "base/error.h"
 #include "compare/compare.h"
 #include "input_checks/map_warnings.h"
@@ -15,7 +15,7 @@
 #include "options/options.h"
 #include "potential/cpu_engine.h"
 #include "potential/potential_series.h"
-#include "report/potential_json.h"
+#include "report/sections/potential_json.h"
 #include "support/random.h"
 #include "support/test_data.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "align/superpose.h"
+#include "align/geometry/superpose.h"
 #include "base/error.h"
 #include "compare/made_side.h"
 #include "cuda/potential/ewald_oracle.h"

@@ -1,16 +1,16 @@
 // groups.cpp: ions, haem, additives and ligands: which charges they get, and from where.
-#include "prepare/groups.h"
+#include "prepare/charges/groups.h"
 
 #include <doctest/doctest.h>
 
 #include <cstdlib>
 
 #include "align/residue_names.h"
-#include "base/input_options.h"
+#include "base/molecule/input_options.h"
 #include "io/structures/read_structure.h"
-#include "prepare/ion_table.h"
-#include "prepare/open_babel.h"
-#include "prepare/pdb2pqr.h"
+#include "prepare/charges/ion_table.h"
+#include "prepare/charges/open_babel.h"
+#include "prepare/charges/pdb2pqr.h"
 #include "support/test_data.h"
 
 using namespace espdiff;       // NOLINT: a test

@@ -1,5 +1,5 @@
 // Ligands: hydrogens of a MOL2 file at the residues that it describes, and how many of them are taken.
-#include "prepare/ligand.h"
+#include "prepare/charges/ligand.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // modified_residues.cpp: residues that PDB2PQR does not know keep their atoms, their place and their net charge.
-#include "prepare/modified_residues.h"
+#include "prepare/charges/modified_residues.h"
 
 #include <doctest/doctest.h>
 
@@ -7,11 +7,11 @@
 #include <sstream>
 
 #include "align/residue_names.h"
-#include "base/input_options.h"
+#include "base/molecule/input_options.h"
 #include "io/molecules/select_atoms.h"
 #include "io/structures/read_structure.h"
-#include "prepare/open_babel.h"
-#include "prepare/pdb2pqr.h"
+#include "prepare/charges/open_babel.h"
+#include "prepare/charges/pdb2pqr.h"
 #include "support/test_data.h"
 
 using namespace espdiff;       // NOLINT: a test

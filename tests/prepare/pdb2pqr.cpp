@@ -1,5 +1,5 @@
 // Preparations by PDB2PQR: against the program run by hand, and the rules for untidy entries.
-#include "prepare/pdb2pqr.h"
+#include "prepare/charges/pdb2pqr.h"
 
 #include <doctest/doctest.h>
 
@@ -12,15 +12,15 @@
 
 #include "align/protonation.h"
 #include "base/error.h"
-#include "base/input_options.h"
+#include "base/molecule/input_options.h"
 #include "io/files/run_program.h"
 #include "io/molecules/select_atoms.h"
 #include "io/molecules/write_pqr.h"
 #include "io/structures/read_structure.h"
 #include "io/structures/structure_file.h"
-#include "prepare/cache.h"
+#include "prepare/charges/cache.h"
+#include "prepare/charges/separate_atoms.h"
 #include "prepare/load_state.h"
-#include "prepare/separate_atoms.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

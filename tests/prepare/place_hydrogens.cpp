@@ -1,5 +1,5 @@
 // place_hydrogens.cpp: lengths, angles and rotations of added hydrogens, and those that no valence allows.
-#include "prepare/place_hydrogens.h"
+#include "prepare/charges/place_hydrogens.h"
 
 #include <doctest/doctest.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/earlier_patch.h"
+#include "base/molecule/earlier_patch.h"
 #include "io/vtk/write_vtp.h"
 #include "support/test_data.h"
 

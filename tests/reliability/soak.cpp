@@ -23,7 +23,7 @@
 #include "mapping/input.h"
 #include "options/options.h"
 #include "potential/computed_map.h"
-#include "report/provenance.h"
+#include "report/sections/provenance.h"
 #include "report/write_compare.h"
 #include "support/limit_memory.h"
 #include "system/this_process.h"

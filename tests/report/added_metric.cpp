@@ -10,7 +10,7 @@
 #include "certificate/result.h"
 #include "matrix/write_matrix.h"
 #include "options/options.h"
-#include "report/metrics.h"
+#include "report/records/metrics.h"
 #include "report/residue_values.h"
 #include "report/write_compare.h"
 #include "support/test_data.h"

@@ -1,5 +1,5 @@
 // causes_report.cpp: what the sentence on the causes of a reading names.
-#include "report/causes_report.h"
+#include "report/sections/causes_report.h"
 
 #include <doctest/doctest.h>
 

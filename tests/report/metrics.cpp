@@ -1,6 +1,6 @@
 // metrics.cpp: the table of metrics: its names, values and units, and that OUT.json and the printed table show each
 // row.
-#include "report/metrics.h"
+#include "report/records/metrics.h"
 
 #include <doctest/doctest.h>
 
@@ -11,8 +11,8 @@
 
 #include "certificate/result.h"
 #include "options/options.h"
-#include "report/provenance.h"
 #include "report/residue_values.h"
+#include "report/sections/provenance.h"
 #include "report/write_compare.h"
 
 using namespace espdiff;

@@ -12,7 +12,7 @@
 #include "engine/deform_stage.h"
 #include "options/options.h"
 #include "options/settings.h"
-#include "report/provenance.h"
+#include "report/sections/provenance.h"
 #include "support/nan.h"
 #include "support/test_data.h"
 

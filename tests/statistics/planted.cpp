@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "statistics/mesh_graph.h"
 #include "statistics/planted_columns.h"
-#include "statistics/surface_test.h"
+#include "statistics/surface/mesh_graph.h"
+#include "statistics/surface/surface_test.h"
 
 using namespace espdiff;
 using espdiff_test::make_ellipsoid;

@@ -9,7 +9,7 @@
 
 #include "base/counter_random.h"
 #include "base/types.h"
-#include "statistics/mesh_graph.h"
+#include "statistics/surface/mesh_graph.h"
 
 namespace espdiff_test {
 

@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "statistics/mesh_graph.h"
 #include "statistics/planted_columns.h"
+#include "statistics/surface/mesh_graph.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -1,5 +1,5 @@
 // surface_test.cpp: two groups compared over a surface: determinism, missing values, places, one replicate a group.
-#include "statistics/surface_test.h"
+#include "statistics/surface/surface_test.h"
 
 #include <doctest/doctest.h>
 
@@ -9,9 +9,9 @@
 #include <string>
 
 #include "statistics/columns.h"
-#include "statistics/mesh_graph.h"
 #include "statistics/planted_columns.h"
 #include "statistics/replicate_columns.h"
+#include "statistics/surface/mesh_graph.h"
 #include "statistics/welch.h"
 
 using namespace espdiff;

@@ -1,5 +1,5 @@
 // tfce.cpp: cluster enhancement against the sum over thresholds, patches, and areas.
-#include "statistics/tfce.h"
+#include "statistics/surface/tfce.h"
 
 #include <doctest/doctest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "statistics/mesh_graph.h"
-#include "statistics/patches.h"
 #include "statistics/planted_columns.h"
+#include "statistics/surface/mesh_graph.h"
+#include "statistics/surface/patches.h"
 
 using namespace espdiff;
 using espdiff_test::make_ellipsoid;

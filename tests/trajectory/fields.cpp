@@ -12,7 +12,7 @@
 #include "engine/select_engine.h"
 #include "io/files/read_csv.h"
 #include "io/grids/write_grid.h"
-#include "report/field_json.h"
+#include "report/sections/field_json.h"
 #include "support/test_data.h"
 #include "support/text.h"
 #include "trajectory/residue_csv.h"

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "frames/frame_range.h"
-#include "io/made_dcd.h"
+#include "io/frames/made_dcd.h"
 #include "io/structures/coordinate_file.h"
 #include "io/structures/structure_file.h"
 #include "support/test_data.h"

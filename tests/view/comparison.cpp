@@ -20,9 +20,9 @@
 #include "view/comparison_scene.h"
 #include "view/display_here.h"
 #include "view/made_comparison.h"
-#include "view/pick.h"
 #include "view/render_surface.h"
 #include "view/render_window.h"
+#include "view/window/pick.h"
 
 using namespace espdiff;  // NOLINT: a test of these headers
 using espdiff_test::can_draw;

@@ -1,5 +1,5 @@
 // map_drawings.cpp: drawings of maps lie at the right positions.
-#include "view/map_drawings.h"
+#include "view/drawings/map_drawings.h"
 
 #include <doctest/doctest.h>
 #include <vtkActor.h>

@@ -14,9 +14,9 @@
 #include "io/structures/read_structure.h"
 #include "scene/secondary_structure.h"
 #include "support/test_data.h"
-#include "view/cartoon.h"
-#include "view/molecule_actors.h"
-#include "view/residue_labels.h"
+#include "view/drawings/cartoon.h"
+#include "view/drawings/molecule_actors.h"
+#include "view/drawings/residue_labels.h"
 
 using namespace espdiff;  // NOLINT: a test of these headers
 

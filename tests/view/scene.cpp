@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "support/test_data.h"
 #include "support/text.h"
-#include "view/scene_keys.h"
-#include "view/viewer.h"
+#include "view/window/scene_keys.h"
+#include "view/window/viewer.h"
 
 using namespace espdiff;  // NOLINT: a test of these headers
 using espdiff_test::contains;

@@ -22,8 +22,8 @@
 #include "view/display_here.h"
 #include "view/made_comparison.h"
 #include "view/render_window.h"
-#include "view/shader_text.h"
-#include "view/surface_geometry.h"
+#include "view/surface/shader_text.h"
+#include "view/surface/surface_geometry.h"
 #include "view/vtk_messages.h"
 
 using namespace espdiff;  // NOLINT: a test of these headers

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/system_message.h"
+#include "base/text/system_message.h"
 #include "io/files/atomic_file.h"
 #include "io/files/read_input.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/system_message.h"
+#include "base/text/system_message.h"
 #include "io/files/sibling_file.h"
 #include "system/permissions.h"
 

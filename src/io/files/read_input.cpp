@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/system_message.h"
+#include "base/text/system_message.h"
 #include "io/files/file_kind.h"
 #include "io/files/sha256.h"
 #include "io/text/entry_code.h"

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/system_message.h"
+#include "base/text/system_message.h"
 #include "system/child_process.h"
 #include "system/open_file.h"
 #include "system/permissions.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/system_message.h"
+#include "base/text/system_message.h"
 #include "io/files/read_input.h"
 
 namespace espdiff {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 #include "io/grids/grid_checks.h"
 #include "io/text/text_cursor.h"
 

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "base/memory.h"
-#include "base/water.h"
+#include "base/molecule/water.h"
 #include "io/molecules/elements.h"
 
 namespace espdiff {

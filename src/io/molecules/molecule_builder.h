@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/structure_options.h"
+#include "base/molecule/structure_options.h"
 #include "base/types.h"
 
 namespace espdiff {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/water.h"
+#include "base/molecule/water.h"
 #include "io/molecules/selected_numbers.h"
 #include "io/text/text_cursor.h"
 #ifdef ESPDIFF_HAVE_GEMMI

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/structure_options.h"
+#include "base/molecule/structure_options.h"
 #include "base/types.h"
 
 namespace espdiff {

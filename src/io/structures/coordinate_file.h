@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/molecule/unit_cell.h"
 #include "base/types.h"
-#include "base/unit_cell.h"
 
 namespace espdiff {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/structure_options.h"
+#include "base/molecule/structure_options.h"
 #include "base/types.h"
 
 namespace espdiff {

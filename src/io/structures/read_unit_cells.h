@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/unit_cell.h"
+#include "base/molecule/unit_cell.h"
 #include "io/structures/atom_records.h"
 
 namespace espdiff {

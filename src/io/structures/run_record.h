@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/structure_options.h"
+#include "base/molecule/structure_options.h"
 #include "base/types.h"
 #include "base/vector.h"
 

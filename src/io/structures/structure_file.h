@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "base/structure_options.h"
+#include "base/molecule/structure_options.h"
+#include "base/molecule/unit_cell.h"
 #include "base/types.h"
-#include "base/unit_cell.h"
 
 namespace espdiff {
 

@@ -17,7 +17,7 @@
 #include "cuda/device/device.h"
 #include "cuda/device/sort.h"
 #include "cuda/device/spatial_order.h"
-#include "cuda/surface/components.h"
+#include "cuda/surface/mesh/components.h"
 #include "engine/deform_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND::forms {

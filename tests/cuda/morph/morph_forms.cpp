@@ -11,10 +11,10 @@
 #include "cuda/device/spatial_order.h"
 #include "cuda/morph/moving_atoms.h"
 #include "cuda/morph/moving_surface.h"
-#include "cuda/surface/density.h"
+#include "cuda/surface/density/density.h"
 #include "cuda/surface/isosurface.h"
+#include "cuda/surface/mesh/split_edges.h"
 #include "cuda/surface/shapes.h"
-#include "cuda/surface/split_edges.h"
 #include "engine/morph_stage.h"
 #include "support/random.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cuda/potential/multigrid.h"
+#include "cuda/potential/pb/multigrid.h"
 #include "support/random.h"
 
 using namespace espdiff_test;

@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "cuda/potential/dielectric_map.h"
+#include "cuda/potential/pb/dielectric_map.h"
 #include "support/random.h"
 
 using namespace espdiff_test;

@@ -1,0 +1,48 @@
+// conjugate_gradients.h: A x = b on a grid by conjugate gradients with a multigrid cycle as preconditioner.
+#pragma once
+
+#include <functional>
+
+#include "cuda/potential/pb/multigrid.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+struct SolverOptions {
+  double tolerance = 1e-6;  ///< of |b - A x| / norm
+  double norm = 1;          ///< residuals are relative to it
+  int max_cycles = 100;
+};
+
+struct SolverReport {
+  double start_residual = 0;     ///< of the start, relative
+  double relative_residual = 0;  ///< computed from b - A x at the end, not carried along
+  int cycles = 0;
+  bool converged = false;
+};
+
+/// The solver's arrays beside x; [point] each, zero on the border.
+struct SolverWork {
+  explicit SolverWork(std::size_t n_points) : r(n_points, 0), p(n_points, 0), z(n_points, 0) {}
+  Buffer<float> r, p, z;
+};
+
+/// Writes b, zero on the border.
+using RightHandSide = std::function<void(Buffer<float>& b)>;
+
+/// Arrays are in single precision, sums in double. Conjugate gradients update the residual by recursion, and that one
+/// drifts from the true residual. When the recursion has converged, the true residual is computed; the iteration
+/// restarts from it where it is too large. Such a hybrid is robust in single precision where multigrid alone is not (Qi
+/// and Luo, J. Chem. Inf. Model. 59, 409 (2019)).
+///
+/// Rounding x to single precision alone can leave a residual above the tolerance. So x gets a second part after a
+/// restart, which takes the corrections (iterative refinement), and true residuals are computed in double precision
+/// from both. The caller gets their sum, rounded once.
+/// @param b     called for each true residual, so that no array holds it meanwhile
+/// @param x     [point] start and result; its border has the Dirichlet values. A start with a residual above 1, worse
+///              than zero, is replaced by zero.
+/// @param step  called after each cycle with the relative residual
+SolverReport conjugate_gradients(const GridOperator& a, Multigrid& preconditioner, const RightHandSide& b,
+                                 const SolverOptions& options, SolverWork& work, Buffer<float>& x,
+                                 const std::function<void(double)>& step);
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,96 @@
+// pb_problem.cu: constants, atoms and coefficients of the Poisson-Boltzmann equation on a grid.
+#include "cuda/potential/pb/pb_problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/formatted.h"
+#include "cuda/potential/coulomb.h"
+#include "cuda/potential/debye_hueckel.h"
+#include "cuda/potential/pb/conjugate_gradients.h"
+#include "cuda/potential/pb/dielectric_map.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// Ions of one kind per cubic Angstrom at 1 mol/l: Avogadro's number, 6.02214076e23 (CODATA 2018), times 1e-27.
+constexpr double kIonsPerA3 = 6.02214076e-4;
+
+std::vector<PbAtom> with_radius(const std::vector<PbAtom>& atoms) {
+  std::vector<PbAtom> kept;
+  std::copy_if(atoms.begin(), atoms.end(), std::back_inserter(kept), [](const PbAtom& a) { return a.radius > 0; });
+  return kept;
+}
+
+}  // namespace
+
+PbConstants pb_constants(const PoissonBoltzmannOptions& o) {
+  PbConstants c{};
+  c.coulomb = coulomb_in_kt(o.temperature_K);
+  c.kappa_bar_2 = 8 * kPi * c.coulomb * kIonsPerA3 * o.ionic_strength;
+  c.kappa = std::sqrt(c.kappa_bar_2 / o.solvent_dielectric);
+  return c;
+}
+
+DebyeHueckel border_law(const PbConstants& constants, const PoissonBoltzmannOptions& options) {
+  return {constants.coulomb / options.solvent_dielectric, constants.kappa};
+}
+
+std::vector<PbAtom> sorted_atoms(const std::vector<Vec3d>& positions, const std::vector<float>& radii,
+                                 const std::vector<float>& charges) {
+  std::vector<PbAtom> atoms;
+  for (std::size_t i = 0; i < positions.size(); ++i) atoms.push_back({positions[i], radii[i], charges[i]});
+  std::sort(atoms.begin(), atoms.end(), [](const PbAtom& a, const PbAtom& b) {
+    for (int axis = 2; axis >= 0; --axis) {
+      if (a.position[axis] != b.position[axis]) return a.position[axis] < b.position[axis];
+    }
+    return a.radius != b.radius ? a.radius < b.radius : a.charge < b.charge;
+  });
+  return atoms;
+}
+
+void fill_pb_operator(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, const PbConstants& constants,
+                      const PoissonBoltzmannOptions& options, GridOperator& on_grid) {
+  fill_operator(with_radius(atoms), lattice, options, usual_coefficients(lattice, constants, options).ions, on_grid);
+}
+
+UsualCoefficients usual_coefficients(const CubicLattice& lattice, const PbConstants& constants,
+                                     const PoissonBoltzmannOptions& options) {
+  const double h = static_cast<double>(lattice.spacing);
+  // Rounded as fill_operator() rounds them by default; a face that it rounds otherwise is listed.
+  const auto as_made = [](double dielectric) { return 1.0F / static_cast<float>(1 / dielectric); };
+  return {as_made(options.solute_dielectric), as_made(options.solvent_dielectric),
+          static_cast<float>(h * h * constants.kappa_bar_2)};
+}
+
+Lattice twice_as_wide(Lattice lattice) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lattice.origin += (-0.5 * (lattice.size[axis] - 1)) * lattice.step[axis];
+    lattice.step[axis] = 2.0 * lattice.step[axis];
+  }
+  return lattice;
+}
+
+CubicLattice twice_as_wide(const CubicLattice& lattice, const Lattice& wide) {
+  CubicLattice result = lattice;
+  result.origin = static_cast<Vec3f>(wide.origin);
+  result.spacing *= 2;
+  return result;
+}
+
+void require_converged(const PoissonBoltzmannOptions& o, const SolverReport& solved, int steps) {
+  if (solved.converged) return;
+  if (o.nonlinear) {
+    throw ConvergenceError(
+        formatted("the nonlinear Poisson-Boltzmann equation did not converge: the relative residual is %.3g after %d "
+                  "Newton steps and %d cycles, %.3g is asked for; use the linearized equation, or a smaller spacing",
+                  solved.relative_residual, steps, solved.cycles, o.tolerance));
+  }
+  throw ConvergenceError(
+      formatted("the Poisson-Boltzmann equation did not converge: the relative residual is %.3g after %d cycles, "
+                "%.3g is asked for; allow more cycles, or a larger tolerance",
+                solved.relative_residual, solved.cycles, o.tolerance));
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,52 @@
+// pb_problem.h: what the Poisson-Boltzmann potential and its transpose set up alike.
+#pragma once
+
+#include <vector>
+
+#include "cuda/potential/pb/multigrid.h"
+#include "cuda/potential/pb/packed_operator.h"
+#include "cuda/potential/pb_atoms.h"
+#include "cuda/surface/density/grid.h"
+#include "engine/poisson_boltzmann.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+struct DebyeHueckel;
+struct SolverReport;
+
+/// The equation's constants; see docs/potentials.md.
+struct PbConstants {
+  double coulomb;      ///< C, kT A / e^2
+  double kappa_bar_2;  ///< eps_solvent kappa^2 = 8 pi C c, 1/A^2
+  double kappa;        ///< 1/A
+};
+PbConstants pb_constants(const PoissonBoltzmannOptions& options);
+
+/// Of a border without the solute's dielectric.
+DebyeHueckel border_law(const PbConstants& constants, const PoissonBoltzmannOptions& options);
+
+/// Atoms sorted by position, so that their order in the input changes no bit.
+std::vector<PbAtom> sorted_atoms(const std::vector<Vec3d>& positions, const std::vector<float>& radii,
+                                 const std::vector<float>& charges);
+
+/// The coefficients of the equation on a grid; its diagonal holds the ions' part alone.
+void fill_pb_operator(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, const PbConstants& constants,
+                      const PoissonBoltzmannOptions& options, GridOperator& on_grid);
+
+/// The dielectrics and the k that most points have; see fill_pb_operator().
+UsualCoefficients usual_coefficients(const CubicLattice& lattice, const PbConstants& constants,
+                                     const PoissonBoltzmannOptions& options);
+
+/// The factor of a charge on the right-hand side, 4 pi C / h.
+inline double charge_scale(const CubicLattice& lattice, double coulomb) {
+  return 4 * kPi * coulomb / static_cast<double>(lattice.spacing);
+}
+
+/// The same centre and number of points, twice the spacing.
+Lattice twice_as_wide(Lattice lattice);
+CubicLattice twice_as_wide(const CubicLattice& lattice, const Lattice& wide);
+
+/// @throws ConvergenceError unless the solver converged
+void require_converged(const PoissonBoltzmannOptions& options, const SolverReport& solved, int newton_steps);
+
+}  // namespace espdiff::ESPDIFF_BACKEND

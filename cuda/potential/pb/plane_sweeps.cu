@@ -1,0 +1,363 @@
+// plane_sweeps.cu: the loops over a plane, and passes in which they follow each other.
+#include "cuda/potential/pb/plane_sweeps.h"
+
+#include <omp.h>
+
+#include <algorithm>
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// Planes of a range below which another thread would not pay.
+constexpr int kFewestPlanes = 8;
+
+/// The operator on plane k: pointers to its first point.
+struct PlaneOperator {
+  const float* ex;
+  const float* ey;
+  const float* ez;
+  const float* diagonal;
+  int nx, ny, k;
+  std::size_t row, plane;
+
+  /// sum of eps_f x_q over the six neighbours of point p of the plane.
+  ESPDIFF_INLINE float neighbours(const float* below, const float* here, const float* above, std::size_t p) const {
+    const float along_x = ex[p] * here[p + 1] + ex[p - 1] * here[p - 1];
+    const float along_y = ey[p] * here[p + row] + ey[p - row] * here[p - row];
+    const float along_z = ez[p] * above[p] + *(ez + p - plane) * below[p];
+    return along_x + along_y + along_z;
+  }
+};
+
+PlaneOperator plane_of(const GridOperator& a, int k) {
+  const std::size_t first = a.size.index(0, 0, k);
+  return {raw(a.ex) + first, raw(a.ey) + first, raw(a.ez) + first, raw(a.diagonal) + first, a.size.nx, a.size.ny, k,
+          a.size.row(),      a.size.plane()};
+}
+
+/// Three neighbouring planes.
+struct Planes {
+  const float* below;
+  const float* here;
+  const float* above;
+};
+
+ESPDIFF_MULTIVERSION void start_plane(const PlaneOperator& given, const float* b, float* x) {
+  const PlaneOperator a = given;
+  for (int j = 1; j < a.ny - 1; ++j) {
+    const std::size_t first = a.row * static_cast<std::size_t>(j);
+    const int parity = j + a.k;
+#pragma GCC ivdep
+    for (int i = 1; i < a.nx - 1; ++i) {
+      const std::size_t p = first + static_cast<std::size_t>(i);
+      x[p] = ((i + parity) & 1) == 0 ? b[p] / a.diagonal[p] : 0.0F;
+    }
+  }
+}
+
+/// Half a sweep: `out` is `here` with the colour's points renewed. Not in place: a vector would be loaded across the
+/// one just stored, which stalls.
+ESPDIFF_MULTIVERSION void sweep_plane(const PlaneOperator& given, int colour, const float* b, const Planes& x,
+                                      float* out) {
+  const PlaneOperator a = given;
+  const float* const below = x.below;
+  const float* const here = x.here;
+  const float* const above = x.above;
+  for (int j = 1; j < a.ny - 1; ++j) {
+    const std::size_t first = a.row * static_cast<std::size_t>(j);
+    const int parity = j + a.k;
+#pragma GCC ivdep
+    for (int i = 1; i < a.nx - 1; ++i) {
+      const std::size_t p = first + static_cast<std::size_t>(i);
+      const float renewed = (b[p] + a.neighbours(below, here, above, p)) / a.diagonal[p];
+      out[p] = ((i + parity) & 1) == colour ? renewed : here[p];
+    }
+  }
+}
+
+/// The residual after a red and a black half sweep from zero: that of black points is zero.
+ESPDIFF_MULTIVERSION void residual_plane(const PlaneOperator& given, const Planes& x, float* r) {
+  const PlaneOperator a = given;
+  const float* const below = x.below;
+  const float* const here = x.here;
+  const float* const above = x.above;
+  for (int j = 1; j < a.ny - 1; ++j) {
+    const std::size_t first = a.row * static_cast<std::size_t>(j);
+    const int parity = j + a.k;
+#pragma GCC ivdep
+    for (int i = 1; i < a.nx - 1; ++i) {
+      const std::size_t p = first + static_cast<std::size_t>(i);
+      const float of_red = a.neighbours(below, here, above, p);
+      r[p] = ((i + parity) & 1) == 0 ? of_red : 0.0F;
+    }
+  }
+}
+
+/// A plane of restrict_to(); see there. @param line [nx] is overwritten
+ESPDIFF_MULTIVERSION void restrict_plane(const GridSize& fine, const Planes& r, const GridSize& coarse, float* line,
+                                         float* b) {
+  const std::size_t row = fine.row();
+  const int nx = fine.nx;
+  for (int j = 1; j < coarse.ny - 1; ++j) {
+    const float* const low = r.below + row * static_cast<std::size_t>(2 * j);
+    const float* const mid = r.here + row * static_cast<std::size_t>(2 * j);
+    const float* const high = r.above + row * static_cast<std::size_t>(2 * j);
+#pragma GCC ivdep
+    for (int i = 0; i < nx; ++i) line[i] = across_weighted(low + i, mid + i, high + i, row);
+    float* const out = b + coarse.row() * static_cast<std::size_t>(j);
+#pragma GCC ivdep
+    for (int i = 1; i < coarse.nx - 1; ++i) out[i] = along_weighted(line[2 * i - 1], line[2 * i], line[2 * i + 1]);
+  }
+}
+
+/// A plane of add_interpolated(): out = x + the correction between coarse planes `below` and `above`.
+ESPDIFF_MULTIVERSION void interpolate_plane(const GridSize& coarse, const float* below, const float* above,
+                                            const GridSize& fine, const float* x, float* line, float* out) {
+  const std::size_t row = coarse.row();
+  for (int j = 1; j < fine.ny - 1; ++j) {
+    const float* const a = below + row * static_cast<std::size_t>(j / 2);
+    const float* const b = below + row * static_cast<std::size_t>((j + 1) / 2);
+    const float* const c = above + row * static_cast<std::size_t>(j / 2);
+    const float* const d = above + row * static_cast<std::size_t>((j + 1) / 2);
+#pragma GCC ivdep
+    for (int i = 0; i < coarse.nx; ++i) line[i] = (a[i] + b[i]) + (c[i] + d[i]);
+    const float* const from = x + fine.row() * static_cast<std::size_t>(j);
+    float* const to = out + fine.row() * static_cast<std::size_t>(j);
+    to[1] = from[1] + 0.125F * (line[0] + line[1]);
+    const int pairs = (fine.nx - 3) / 2;  // of an even and an odd point
+#pragma GCC ivdep
+    for (int i = 1; i <= pairs; ++i) {
+      to[2 * i] = from[2 * i] + 0.125F * (line[i] + line[i]);
+      to[2 * i + 1] = from[2 * i + 1] + 0.125F * (line[i] + line[i + 1]);
+    }
+    const int last = fine.nx - 2;
+    if (last % 2 == 0 && last > 1) to[last] = from[last] + 0.125F * (line[last / 2] + line[last / 2]);
+  }
+}
+
+ESPDIFF_MULTIVERSION void turn_plane(float beta, const float* z, const float* from, std::size_t n, float* p) {
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n; ++i) p[i] = z[i] + beta * from[i];
+}
+
+ESPDIFF_MULTIVERSION void apply_plane(const PlaneOperator& given, const Planes& x, float* y) {
+  const PlaneOperator a = given;
+  const float* const below = x.below;
+  const float* const here = x.here;
+  const float* const above = x.above;
+  for (int j = 1; j < a.ny - 1; ++j) {
+    const std::size_t first = a.row * static_cast<std::size_t>(j);
+#pragma GCC ivdep
+    for (int i = 1; i < a.nx - 1; ++i) {
+      const std::size_t p = first + static_cast<std::size_t>(i);
+      y[p] = a.diagonal[p] * here[p] - a.neighbours(below, here, above, p);
+    }
+  }
+}
+
+/// sum a_i b_i, in lanes whose number does not depend on the processor.
+ESPDIFF_MULTIVERSION double dot_run(const float* a, const float* b, std::size_t n) {
+  LaneSums sums;
+  std::size_t i = 0;
+  for (; i + LaneSums::kLanes <= n; i += LaneSums::kLanes) {
+    for (std::size_t lane = 0; lane < LaneSums::kLanes; ++lane)
+      sums.sum[lane] += static_cast<double>(a[i + lane]) * static_cast<double>(b[i + lane]);
+  }
+  for (std::size_t lane = 0; i < n; ++i, ++lane)
+    sums.sum[lane] += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  return sums.total();
+}
+
+ESPDIFF_MULTIVERSION void advance_run(float alpha, const float* p, const float* q, std::size_t n, float* x, float* r) {
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n; ++i) {
+    x[i] += alpha * p[i];
+    r[i] -= alpha * q[i];
+  }
+}
+
+/// Zeroes the border of a plane of a grid.
+void clear_border(const GridSize& size, float* plane) {
+  std::fill_n(plane, size.row(), 0.0F);
+  std::fill_n(plane + size.plane() - size.row(), size.row(), 0.0F);
+  for (std::size_t first = size.row(); first < size.plane(); first += size.row())
+    plane[first] = plane[first + size.row() - 1] = 0.0F;
+}
+
+int n_ranges(const GridSize& size) {
+  if (size.points() < kSerialPoints) return 1;
+  return std::max(1, std::min(omp_get_max_threads(), (size.nz - 2) / kFewestPlanes));
+}
+
+/// The range'th of n parts of [first, last).
+struct Part {
+  int first, last;
+};
+Part part_of(int first, int last, int range, int n) {
+  const auto at = [&](int r) { return first + static_cast<int>(static_cast<long>(last - first) * r / n); };
+  return {at(range), at(range + 1)};
+}
+
+double total_of(const std::vector<double>& of_plane) {
+  double total = 0;
+  for (const double sum : of_plane) total += sum;
+  return total;
+}
+
+}  // namespace
+
+PlaneSweeps::PlaneSweeps(const GridSize& largest) : own_(static_cast<std::size_t>(n_ranges(largest))) {
+  for (Own& own : own_) {
+    own.zero.assign(largest.plane(), 0.0F);
+    for (auto* planes : {&own.x, &own.black, &own.r}) {
+      for (Buffer<float>& plane : *planes) plane.assign(largest.plane(), 0.0F);
+    }
+    for (Buffer<float>& plane : own.halo) plane.assign(largest.plane(), 0.0F);
+    own.row.assign(largest.row(), 0.0F);
+  }
+}
+
+void PlaneSweeps::smooth_and_restrict(const GridOperator& a, const Buffer<float>& b, Buffer<float>& x,
+                                      const GridSize& coarse, Buffer<float>& coarse_b) {
+  const GridSize size = a.size;
+  const std::size_t plane = size.plane();
+  const int n = std::min(n_ranges(size), static_cast<int>(own_.size()));
+  const float* const right = raw(b);
+  float* const out = raw(x);
+  float* const restricted = raw(coarse_b);
+  for_each_index(static_cast<std::size_t>(n), [&, n](std::size_t range) {
+    Own& own = own_[range];
+    // Border rows of these planes stay zero, whatever the level's size.
+    for (auto* planes : {&own.x, &own.black, &own.r}) {
+      for (Buffer<float>& buffer : *planes) clear_border(size, raw(buffer));
+    }
+    const Part part = part_of(1, coarse.nz - 1, static_cast<int>(range), n);  // of coarse planes
+    const int first = range == 0 ? 1 : 2 * part.first - 1,
+              last = static_cast<int>(range) == n - 1 ? size.nz - 1 : 2 * part.last - 1;
+    const auto is_inner = [&](int k) { return k > 0 && k < size.nz - 1; };
+    const auto x_of = [&](int k) { return is_inner(k) ? raw(own.x[k % 3]) : raw(own.zero); };
+    const auto black_of = [&](int k) { return is_inner(k) ? raw(own.black[k % 3]) : raw(own.zero); };
+    const auto r_of = [&](int k) { return is_inner(k) ? raw(own.r[k % 3]) : raw(own.zero); };
+    const auto b_of = [&](int k) { return right + plane * static_cast<std::size_t>(k); };
+    const int lowest = 2 * part.first - 3, highest = std::max(2 * part.last - 1, last);
+    for (int k = std::max(1, lowest); k <= highest + 2; ++k) {
+      if (is_inner(k)) start_plane(plane_of(a, k), b_of(k), x_of(k));
+      const int black = k - 1, done = k - 2;
+      if (is_inner(black) && black > lowest)
+        sweep_plane(plane_of(a, black), 1, b_of(black), {x_of(black - 1), x_of(black), x_of(black + 1)},
+                    black_of(black));
+      if (done < 1 || done < lowest + 2) continue;
+      if (is_inner(done)) {
+        residual_plane(plane_of(a, done), {black_of(done - 1), black_of(done), black_of(done + 1)}, r_of(done));
+        if (done >= first && done < last)
+          std::copy_n(black_of(done), plane, out + plane * static_cast<std::size_t>(done));
+      }
+      const int to = (done - 1) / 2;
+      if (done % 2 == 1 && to >= part.first && to < part.last)
+        restrict_plane(size, {r_of(done - 2), r_of(done - 1), r_of(done)}, coarse, raw(own.row),
+                       restricted + coarse.plane() * static_cast<std::size_t>(to));
+    }
+  });
+}
+
+double PlaneSweeps::correct_and_smooth(const GridOperator& a, const Buffer<float>& b, const GridSize& coarse,
+                                       const Buffer<float>& correction, Buffer<float>& x) {
+  const GridSize size = a.size;
+  const std::size_t plane = size.plane();
+  const int n = std::min(n_ranges(size), static_cast<int>(own_.size()));
+  const float* const right = raw(b);
+  const float* const from = raw(correction);
+  float* const out = raw(x);
+  const auto is_inner = [&](int k) { return k > 0 && k < size.nz - 1; };
+  const auto part_of_range = [&](std::size_t range) { return part_of(1, size.nz - 1, static_cast<int>(range), n); };
+  // Neighbours' planes, before they are overwritten.
+  for (std::size_t range = 0; range < static_cast<std::size_t>(n); ++range) {
+    const Part part = part_of_range(range);
+    for (int side = 0; side < 4; ++side) {
+      const int k = side < 2 ? part.first - 2 + side : part.last + side - 2;
+      if (is_inner(k)) std::copy_n(out + plane * static_cast<std::size_t>(k), plane, raw(own_[range].halo[side]));
+    }
+  }
+  std::vector<double> products(static_cast<std::size_t>(size.nz), 0.0);
+  for_each_index(static_cast<std::size_t>(n), [&](std::size_t range) {
+    Own& own = own_[range];
+    for (auto* planes : {&own.x, &own.black}) {
+      for (Buffer<float>& buffer : *planes) clear_border(size, raw(buffer));
+    }
+    const Part part = part_of_range(range);
+    const auto x_of = [&](int k) { return is_inner(k) ? raw(own.x[k % 3]) : raw(own.zero); };
+    const auto black_of = [&](int k) { return is_inner(k) ? raw(own.black[k % 3]) : raw(own.zero); };
+    const auto b_of = [&](int k) { return right + plane * static_cast<std::size_t>(k); };
+    const auto before = [&](int k) -> const float* {
+      if (k < part.first) return raw(own.halo[k - part.first + 2]);
+      return k < part.last ? out + plane * static_cast<std::size_t>(k) : raw(own.halo[k - part.last + 2]);
+    };
+    const auto coarse_of = [&](int k) { return from + coarse.plane() * static_cast<std::size_t>(k); };
+    for (int k = part.first - 2; k < part.last + 2; ++k) {
+      if (is_inner(k))
+        interpolate_plane(coarse, coarse_of(k / 2), coarse_of((k + 1) / 2), size, before(k), raw(own.row), x_of(k));
+      const int black = k - 1, red = k - 2;
+      if (is_inner(black) && black >= part.first - 1)
+        sweep_plane(plane_of(a, black), 1, b_of(black), {x_of(black - 1), x_of(black), x_of(black + 1)},
+                    black_of(black));
+      if (red < part.first || red >= part.last) continue;
+      float* const done = out + plane * static_cast<std::size_t>(red);
+      sweep_plane(plane_of(a, red), 0, b_of(red), {black_of(red - 1), black_of(red), black_of(red + 1)}, done);
+      products[static_cast<std::size_t>(red)] = dot_run(done, b_of(red), plane);
+    }
+  });
+  return total_of(products);
+}
+
+double PlaneSweeps::turn_and_apply(const GridOperator& a, float beta, Buffer<float>& z, Buffer<float>& p) {
+  const GridSize size = a.size;
+  const std::size_t plane = size.plane();
+  const int n = std::min(n_ranges(size), static_cast<int>(own_.size()));
+  float* const along = raw(p);
+  float* const image = raw(z);
+  const auto at = [&](int k) { return plane * static_cast<std::size_t>(k); };
+  const auto part_of_range = [&](std::size_t range) { return part_of(1, size.nz - 1, static_cast<int>(range), n); };
+  // The neighbours' new p, before z and p are overwritten. Those of the grid's border are zero.
+  for (std::size_t range = 0; range < static_cast<std::size_t>(n); ++range) {
+    const Part part = part_of_range(range);
+    turn_plane(beta, image + at(part.first - 1), along + at(part.first - 1), plane, raw(own_[range].halo[0]));
+    turn_plane(beta, image + at(part.last), along + at(part.last), plane, raw(own_[range].halo[1]));
+  }
+  std::vector<double> products(static_cast<std::size_t>(size.nz), 0.0);
+  for_each_index(static_cast<std::size_t>(n), [&](std::size_t range) {
+    Own& own = own_[range];
+    const Part part = part_of_range(range);
+    const auto p_of = [&](int k) -> const float* {
+      if (k < part.first) return raw(own.halo[0]);
+      return k < part.last ? along + at(k) : raw(own.halo[1]);
+    };
+    for (int k = part.first; k <= part.last; ++k) {
+      if (k < part.last) turn_plane(beta, image + at(k), along + at(k), plane, along + at(k));
+      const int done = k - 1;
+      if (done < part.first) continue;
+      apply_plane(plane_of(a, done), {p_of(done - 1), p_of(done), p_of(done + 1)}, image + at(done));
+      products[static_cast<std::size_t>(done)] = dot_run(along + at(done), image + at(done), plane);
+    }
+  });
+  return total_of(products);
+}
+
+double advance_by_runs(float alpha, const Buffer<float>& p, const Buffer<float>& q, Buffer<float>& x,
+                       Buffer<float>& r) {
+  constexpr std::size_t kRun = 16384;
+  const std::size_t n = x.size(), n_runs = (n + kRun - 1) / kRun;
+  std::vector<double> squares(n_runs, 0.0);
+  const float* const along = raw(p);
+  const float* const image = raw(q);
+  float* const position = raw(x);
+  float* const residual = raw(r);
+  double* const of_run = squares.data();
+  for_each_index(n_runs, [=](std::size_t run) {
+    const std::size_t first = run * kRun, length = std::min(kRun, n - first);
+    advance_run(alpha, along + first, image + first, length, position + first, residual + first);
+    of_run[run] = dot_run(residual + first, residual + first, length);
+  });
+  return total_of(squares);
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,237 @@
+// solute_shape.cu: which points of a lattice lie in the solute: by points (device), by planes (CPU).
+#include <algorithm>
+#include <cmath>
+
+#include "cuda/potential/pb/dielectric_map.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// A shape for kernels.
+struct ShapeView {
+  ProbeAtomsView atoms;
+  AtomCellsView probes;
+  float probe;
+  float reach;   ///< probe radius and a lattice step: farther probes do not matter next to the surface
+  float margin;  ///< distance beyond the enlarged spheres within which depths are computed
+  bool has_probe, has_arcs;
+};
+
+ESPDIFF_INLINE float square_of(float dx, float dy, float dz) { return dx * dx + dy * dy + dz * dz; }
+
+/// Deeper points are not examined.
+constexpr float kDeepest_A = 1000;
+
+/// Whether the probe fits at the projection of p, at distance d from atom a, onto the enlarged sphere.
+ESPDIFF_INLINE bool is_reached_on(const ShapeView& shape, std::uint32_t a, Vec3f p, float d) {
+  const Vec3f centre = shape.atoms.centre(a);
+  const float scale = shape.atoms.radius[a] / d;
+  return !shape.atoms.is_buried(a, centre + scale * (p - centre));
+}
+
+ESPDIFF_INLINE float depth_at(const ShapeView& shape, Vec3f p) {
+  const AtomCellsView& cells = shape.atoms.cells;
+  float inside = -kDeepest_A;
+  visit_atom_runs(cells, p, cells.max_reach + shape.margin, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t a = begin; a < end; ++a) {
+      const float d = sqrtf(square_of(p.x - cells.x[a], p.y - cells.y[a], p.z - cells.z[a]));
+      inside = larger(inside, shape.atoms.radius[a] - d);
+    }
+  });
+  // Beyond the margin the value does not matter.
+  if (inside <= 0.0F || !shape.has_probe) return inside < -shape.margin ? -kDeepest_A : inside - shape.probe;
+  float depth = kDeepest_A;
+  visit_atom_runs(cells, p, cells.max_reach, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t a = begin; a < end; ++a) {
+      if (shape.atoms.exposed[a] == 0) continue;
+      const float d = sqrtf(square_of(p.x - cells.x[a], p.y - cells.y[a], p.z - cells.z[a]));
+      const float by_atom = shape.atoms.radius[a] - d;
+      if (!(by_atom > 0.0F && by_atom < shape.reach)) continue;
+      if (by_atom - shape.probe < depth && is_reached_on(shape, a, p, d)) depth = by_atom - shape.probe;
+    }
+  });
+  if (!shape.has_arcs) return depth;
+  visit_atom_runs(shape.probes, p, shape.reach, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t c = begin; c < end; ++c) {
+      const float d = sqrtf(square_of(p.x - shape.probes.x[c], p.y - shape.probes.y[c], p.z - shape.probes.z[c]));
+      if (d < shape.reach) depth = smaller(depth, d - shape.probe);
+    }
+  });
+  return depth;
+}
+
+#if !defined(ESPDIFF_BACKEND_CUDA)
+
+/// The points of a plane within a distance of a centre, row by row: visit(first point's index, j, first i, end i).
+template <typename Visit>
+ESPDIFF_INLINE void visit_disc(const CubicLattice& lattice, int k, Vec3f centre, float radius, Visit visit) {
+  const float dz = lattice.coordinate(2, k) - centre.z, reach = radius * radius - dz * dz;
+  if (!(reach > 0)) return;
+  const float disc = sqrtf(reach), inverse = 1.0F / lattice.spacing;
+  const int j0 = std::max(0, static_cast<int>((centre.y - disc - lattice.origin.y) * inverse)),
+            j1 = std::min(lattice.size[1] - 1, static_cast<int>((centre.y + disc - lattice.origin.y) * inverse) + 1);
+  for (int j = j0; j <= j1; ++j) {
+    const float dy = lattice.coordinate(1, j) - centre.y, left = reach - dy * dy;
+    if (!(left > 0)) continue;
+    const float half = sqrtf(left);
+    // One more point on each side: visit() tests the distance itself.
+    const int i0 = std::max(0, static_cast<int>((centre.x - half - lattice.origin.x) * inverse)),
+              i1 = std::min(lattice.size[0] - 1, static_cast<int>((centre.x + half - lattice.origin.x) * inverse) + 1);
+    visit(j, i0, i1 + 1, dy, dz);
+  }
+}
+
+struct PlaneFill {
+  ShapeView shape;
+  CubicLattice lattice;
+  std::size_t n_atoms;
+  const std::uint32_t* first_probe;  ///< [plane + 1] of `probes` that reach it
+  const std::uint32_t* probes;
+  float* depths;
+};
+
+/// Depth of points in the enlarged spheres.
+ESPDIFF_INLINE void mark_spheres(const PlaneFill& in, int k) {
+  const AtomCellsView& cells = in.shape.atoms.cells;
+  const float z = in.lattice.coordinate(2, k);
+  for (std::uint32_t a = 0; a < in.n_atoms; ++a) {
+    const float radius = in.shape.atoms.radius[a], reach = radius + in.shape.margin, x = cells.x[a];
+    if (fabsf(cells.z[a] - z) >= reach) continue;
+    visit_disc(in.lattice, k, in.shape.atoms.centre(a), reach,
+               [&](int j, int i0, int i1, float dy, float dz) ESPDIFF_INLINE_LAMBDA {
+                 float* const row = in.depths + in.lattice.index(0, j, k);
+                 for (int i = i0; i < i1; ++i)
+                   row[i] = larger(row[i], radius - sqrtf(square_of(in.lattice.coordinate(0, i) - x, dy, dz)));
+               });
+  }
+}
+
+/// Points that a probe covers while it touches one atom.
+ESPDIFF_INLINE void reach_faces(const PlaneFill& in, int k) {
+  const AtomCellsView& cells = in.shape.atoms.cells;
+  const float z = in.lattice.coordinate(2, k), probe = in.shape.probe;
+  for (std::uint32_t a = 0; a < in.n_atoms; ++a) {
+    const float radius = in.shape.atoms.radius[a], x = cells.x[a];
+    if (in.shape.atoms.exposed[a] == 0 || fabsf(cells.z[a] - z) >= radius) continue;
+    visit_disc(in.lattice, k, in.shape.atoms.centre(a), radius, [&](int j, int i0, int i1, float dy, float dz) {
+      float* const row = in.depths + in.lattice.index(0, j, k);
+      for (int i = i0; i < i1; ++i) {
+        const Vec3f p = in.lattice.point(i, j, k);
+        const float d = sqrtf(square_of(p.x - x, dy, dz)), by_atom = radius - d;
+        if (!(by_atom > 0.0F && by_atom < in.shape.reach)) continue;
+        if (by_atom - probe < row[i] && is_reached_on(in.shape, a, p, d)) row[i] = by_atom - probe;
+      }
+    });
+  }
+}
+
+/// Points that a probe covers while it touches two or more.
+ESPDIFF_INLINE void reach_arcs(const PlaneFill& in, int k) {
+  const float probe = in.shape.probe, reach = in.shape.reach;
+  for (std::uint32_t n = in.first_probe[k]; n < in.first_probe[k + 1]; ++n) {
+    const std::uint32_t c = in.probes[n];
+    const Vec3f centre{in.shape.probes.x[c], in.shape.probes.y[c], in.shape.probes.z[c]};
+    visit_disc(in.lattice, k, centre, reach, [&](int j, int i0, int i1, float dy, float dz) ESPDIFF_INLINE_LAMBDA {
+      float* const row = in.depths + in.lattice.index(0, j, k);
+      for (int i = i0; i < i1; ++i) {
+        const float d = sqrtf(square_of(in.lattice.coordinate(0, i) - centre.x, dy, dz));
+        row[i] = d < reach && row[i] > -probe ? smaller(row[i], d - probe) : row[i];
+      }
+    });
+  }
+}
+
+ESPDIFF_MULTIVERSION void fill_plane(const PlaneFill& in, int k) {
+  const std::size_t plane = in.lattice.index(0, 0, 1);
+  float* const depths = in.depths + plane * static_cast<std::size_t>(k);
+  for (std::size_t i = 0; i < plane; ++i) depths[i] = -kDeepest_A;
+  mark_spheres(in, k);
+  const bool has_probe = in.shape.has_probe;
+  const float margin = -in.shape.margin, probe = in.shape.probe;
+  for (std::size_t i = 0; i < plane; ++i) {
+    const float outside = depths[i] < margin ? -kDeepest_A : depths[i] - probe;
+    depths[i] = depths[i] > 0.0F && has_probe ? kDeepest_A : outside;
+  }
+  if (!has_probe) return;
+  reach_faces(in, k);
+  reach_arcs(in, k);
+}
+
+#endif
+
+}  // namespace
+
+SoluteShape::SoluteShape(const std::vector<PbAtom>& atoms, float probe_radius) : probe_(probe_radius) {
+  atoms_ = make_probe_atoms(atoms, probe_radius);
+  if (!(probe_radius > 0)) return;
+  const Buffer<Vec4f> probes = find_probe_positions(atoms_);
+  if (probes.empty()) return;
+  std::vector<Vec3d> positions;
+  for (const Vec4f& p : to_host(probes)) positions.push_back(static_cast<Vec3d>(p.xyz()));
+  probes_ = make_atom_cells(positions, std::vector<float>(positions.size(), probe_radius / kCutoffInWidths),
+                            std::vector<std::int32_t>(positions.size(), 0));
+}
+
+void SoluteShape::depths(const CubicLattice& lattice, Buffer<float>& depths) const {
+#if defined(ESPDIFF_BACKEND_CUDA)
+  depths_by_points(lattice, depths);
+#else
+  depths_by_planes(lattice, depths);
+#endif
+}
+
+namespace {
+
+ShapeView view_of(const ProbeAtoms& atoms, const std::shared_ptr<AtomCells>& probes, float probe, float spacing) {
+  return {view_of(atoms),   probes ? probes->view() : AtomCellsView{}, probe,
+          probe + spacing,  probe < spacing ? spacing - probe : 0.0F,  probe > 0,
+          probes != nullptr};
+}
+
+}  // namespace
+
+void SoluteShape::depths_by_points(const CubicLattice& lattice, Buffer<float>& depths) const {
+  const ShapeView shape = view_of(atoms_, probes_, probe_, lattice.spacing);
+  depths.resize(lattice.n_points());
+  float* const out = raw(depths);
+  const std::size_t nx = static_cast<std::size_t>(lattice.size[0]), ny = static_cast<std::size_t>(lattice.size[1]);
+  for_each_index(depths.size(), [=] ESPDIFF_HD(std::size_t p) {
+    out[p] = depth_at(
+        shape, lattice.point(static_cast<int>(p % nx), static_cast<int>(p / nx % ny), static_cast<int>(p / (nx * ny))));
+  });
+}
+
+#if !defined(ESPDIFF_BACKEND_CUDA)
+void SoluteShape::depths_by_planes(const CubicLattice& lattice, Buffer<float>& depths) const {
+  depths.resize(lattice.n_points());
+  PlaneFill fill{
+      view_of(atoms_, probes_, probe_, lattice.spacing), lattice, atoms_.radius.size(), nullptr, nullptr, raw(depths)};
+  // Probes sorted by plane.
+  std::vector<std::uint32_t> first(static_cast<std::size_t>(lattice.size[2]) + 1, 0), probes;
+  const std::size_t n_probes = probes_ ? probes_->x.size() : 0;
+  const auto planes_of = [&](std::size_t c) {
+    const float z = raw(probes_->z)[c] - lattice.origin.z;
+    const int low = static_cast<int>(std::ceil((z - fill.shape.reach) / lattice.spacing)),
+              high = static_cast<int>(std::floor((z + fill.shape.reach) / lattice.spacing));
+    return std::array<int, 2>{std::max(0, low), std::min(lattice.size[2] - 1, high)};
+  };
+  for (std::size_t c = 0; c < n_probes; ++c) {
+    const std::array<int, 2> planes = planes_of(c);
+    for (int k = planes[0]; k <= planes[1]; ++k) ++first[static_cast<std::size_t>(k) + 1];
+  }
+  for (std::size_t k = 1; k < first.size(); ++k) first[k] += first[k - 1];
+  probes.resize(first.back());
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (std::size_t c = 0; c < n_probes; ++c) {
+    const std::array<int, 2> planes = planes_of(c);
+    for (int k = planes[0]; k <= planes[1]; ++k)
+      probes[next[static_cast<std::size_t>(k)]++] = static_cast<std::uint32_t>(c);
+  }
+  fill.first_probe = first.data();
+  fill.probes = probes.data();
+  for_each_index(static_cast<std::size_t>(lattice.size[2]),
+                 [=](std::size_t k) { fill_plane(fill, static_cast<int>(k)); });
+}
+#endif
+
+}  // namespace espdiff::ESPDIFF_BACKEND

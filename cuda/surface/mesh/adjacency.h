@@ -1,0 +1,27 @@
+// adjacency.h: quantities of a mesh's topology and positions: one-rings, vertex normals, vertex areas, umbrella
+// Laplacians.
+#pragma once
+
+#include "cuda/surface/mesh/mesh.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+/// [vertex] unit outward normals, the area-weighted mean of the incident triangles' normals; zero where they cancel.
+Buffer<Vec4f> vertex_normals(const SurfaceMesh& mesh);
+
+/// [triangle] area, Angstrom^2.
+Buffer<float> triangle_areas(const SurfaceMesh& mesh);
+
+/// [vertex] one third of the area of the incident triangles with nonzero `included` (null includes all).
+Buffer<float> vertex_areas(const SurfaceMesh& mesh, const Buffer<float>& areas, const std::uint8_t* included);
+
+/// Uniform umbrella Laplacian at v: mean of the one-ring minus v; zero for a vertex in no triangle.
+ESPDIFF_INLINE Vec4f umbrella(const TopologyView& topology, const Vec4f* x, std::size_t v) {
+  const std::uint32_t begin = topology.first[v], end = topology.first[v + 1];
+  Vec4f sum{};
+  for (std::uint32_t n = begin; n < end; ++n) sum = sum + x[topology.neighbour[n]];
+  if (begin == end) return {};  // an isolated vertex stays in place
+  return (1.0F / static_cast<float>(end - begin)) * sum - x[v];
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,235 @@
+// ensemble.cpp: `espdiff ensemble --group NAME FILE... -o OUT`.
+#include <cstdio>
+#include <iostream>
+
+#include "base/error.h"
+#include "base/formatted.h"
+#include "base/text/printable.h"
+#include "cli/map_options.h"
+#include "cli/options.h"
+#include "cli/verbs.h"
+#include "cli/words/help.h"
+#include "engine/engine.h"
+#include "ensemble/ensemble_study.h"
+#include "ensemble/file/ensemble_file.h"
+#include "ensemble/result/write_ensemble.h"
+#include "matrix/matrix_run.h"
+
+namespace espdiff::cli {
+namespace {
+
+struct EnsembleArguments {
+  std::vector<std::vector<std::string>> groups;  ///< NAME FILE...
+  std::string list;
+  std::vector<std::string> charges;  ///< GROUP=FILE
+  std::vector<std::string> maps;     ///< GROUP=PATTERN
+  EnsembleStudy study;
+  std::string shard = "1/1", on_error = "stop", equilibration = "none", control = "tfce";
+  bool quiet = false;
+  DeviceArguments device;
+  GivenSettings settings;
+};
+
+void print_run(const EnsembleReport& report, const std::string& device) {
+  const std::size_t n = report.n_frames - report.n_resumed;
+  std::cout << n << " frames mapped in " << in_words(report.seconds);
+  if (n > 0 && report.seconds > 0) {
+    std::cout << ", " << formatted("%.2f", report.seconds / static_cast<double>(n)) << " s a frame";
+  }
+  std::cout << " (" << device << ")";
+  if (report.n_resumed > 0) std::cout << "; " << report.n_resumed << " were there already";
+  if (report.n_damaged > 0) std::cout << "; " << report.n_damaged << " were incomplete, and computed again";
+  if (report.n_skipped > 0) std::cout << "; " << report.n_skipped << " could not be mapped and have no values";
+  std::cout << "\n" << report.path;
+  const char* separator = ", by stage: ";
+  for (const auto& [stage, ms] : report.time_ms) {
+    std::cout << formatted("%s%s %.0f ms", separator, stage.c_str(), ms / static_cast<double>(n));
+    separator = ", ";
+  }
+  std::cout << "\n\n";
+}
+
+/// The groups, from options or the list.
+void name_inputs(const EnsembleArguments& a, EnsembleStudy& study) {
+  if (!a.groups.empty() && !a.list.empty()) throw InputError("--group and --list exclude each other; leave one out");
+  if (study.from.empty() && a.groups.empty() && a.list.empty())
+    throw InputError("no group was given; name one or two by --group, or a --list of them");
+  EnsembleRequest& inputs = study.inputs;
+  if (!study.from.empty() && !a.list.empty())
+    throw InputError("--list names files, and --from has mapped frames; name its replicates by --group");
+  inputs.replicates = a.list.empty() ? replicates_of_groups(a.groups) : replicates_of_list(a.list, inputs.charges);
+  for (const std::string& text : a.charges) {
+    const std::size_t sign = text.find('=');
+    inputs.charges[text.substr(0, sign)] = sign == std::string::npos ? "" : text.substr(sign + 1);
+  }
+  for (const std::string& text : a.maps) {
+    const std::size_t sign = text.find('=');
+    inputs.maps.of_group[text.substr(0, sign)] = sign == std::string::npos ? "" : text.substr(sign + 1);
+  }
+  study.read_files = {a.list};
+}
+
+int ensemble_verb(const EnsembleArguments& a, const Context& context) {
+  EnsembleStudy study = a.study;
+  study.statistics.equilibration = parse_equilibration(a.equilibration);
+  study.statistics.control = a.control == "tfce" ? ErrorControl::kTfce : ErrorControl::kMaxT;
+  study.options = ensemble_options(a.settings);
+  study.run.shard = parse_shard(a.shard);
+  study.run.skip_errors = a.on_error == "skip";
+  name_inputs(a, study);
+  const EnsembleAnswer answer = run_study(
+      study, [&] { return make_engine(a.device); }, *context.progress,
+      [](const Message& text) { std::fprintf(stderr, "espdiff: warning: %s\n", printable(text.plain()).c_str()); });
+  if (a.quiet) return 0;
+  for (const EnsembleReport& report : answer.reports) print_run(report, answer.device);
+  if (answer.result == nullptr) return 0;
+  print_ensemble(std::cout, *answer.file, *answer.result);
+  for (const FieldAnswer& field : answer.fields) {
+    std::cout << "\n---- field " << field.name << " ----\n\n";
+    print_ensemble(std::cout, *field.file, *field.result);
+  }
+  std::cout << "\nwritten:";
+  for (const std::string& path : answer.written) std::cout << ' ' << path;
+  std::cout << '\n';
+  return 0;
+}
+
+void add_input_options(CLI::App& p, EnsembleArguments& a) {
+  const char* const group = "Groups";
+  EnsembleRequest& inputs = a.study.inputs;
+  p.add_option("--group", a.groups,
+               "A group: its name, then its replicates: structure files whose models are the frames (PDB, PQR, mmCIF), "
+               "or a structure or topology (PSF, prmtop, ...) and trajectories of its atoms (DCD, XTC, ...). Give it "
+               "twice to compare two groups, once to describe one")
+      ->type_name("NAME FILE...")
+      ->group(group);
+  p.add_option("--list", a.list,
+               "Table of the groups instead, comma-separated: group, structure, and optionally replicate (rows of one "
+               "replicate follow each other), topology (of a trajectory's atoms), charges and maps (a pattern). Paths "
+               "are relative to the "
+               "list")
+      ->group(group);
+  p.add_option("--charges", a.charges,
+               "GROUP=FILE: a PQR file of the same atoms, whose charges and radii the frames of the group take. "
+               "Without it, frames keep their own, or PDB2PQR makes them from the group's first frame")
+      ->group(group);
+  p.add_option(
+       "--maps", a.maps,
+       "GROUP=PATTERN: the potential of each frame, computed by another program, in the frame's coordinates (DX, "
+       "VTI, cube). %d or %03d in the pattern stands for the frame's number in its replicate, from 0, "
+       "{replicate} for the replicate's name. Without it, potentials are computed (--potential)")
+      ->group(group);
+  p.add_option("--map-unit", inputs.maps.unit,
+               "Unit of these maps if the files do not give it: kT/e, mV, V, kcal/mol/e, hartree/e")
+      ->group(group);
+  p.add_option("--map-array", inputs.maps.array, "Array of VTI maps with several")->group(group);
+  p.add_option("--frames", inputs.frames,
+               "Frames of each replicate, from 0: all, begin:end or begin:step:end, as in `espdiff trajectory`")
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--template", inputs.template_text,
+               "The structure whose surface is mapped onto every frame. medoid: the frame nearest to all others (of at "
+               "most 200, evenly spread); medoid:GROUP: among the group's frames; a number: that frame, counted from 0 "
+               "through all groups; a structure file")
+      ->capture_default_str()
+      ->group(group);
+  add_plugins_option(p, inputs.plugins, group);
+  add_structure_options(p, inputs.structure);
+  add_computed_map_options(p, inputs.potential);
+}
+
+void add_run_options(CLI::App& p, EnsembleArguments& a) {
+  p.add_flag("--resume", a.study.run.resume,
+             "Go on with OUT.h5 of an interrupted run; a complete one gets new statistics")
+      ->group("Run");
+  p.add_flag("--overwrite", a.study.run.overwrite, "Replace OUT.h5 if it exists")->group("Run");
+  p.add_option("--on-error", a.on_error, "A frame that cannot be mapped stops the run, or has no values")
+      ->check(CLI::IsMember({"stop", "skip"}))
+      ->capture_default_str()
+      ->group("Run");
+  p.add_option("--shard", a.shard,
+               "Map part I of N of the frames, I/N, into OUT.shard-I-of-N.h5; `espdiff merge` merges the parts")
+      ->capture_default_str()
+      ->group("Run");
+}
+
+void add_statistics_options(CLI::App& p, EnsembleArguments& a) {
+  const char* const group = "Statistics";
+  p.add_option(
+       "--from", a.study.from,
+       "Compute the statistics of this complete OUT.h5 again; maps nothing, unless causes are asked for. Groups are "
+       "then of its replicates: --group NAME MEMBER..., each NAME, GROUP/NAME, or with some of its frames, w1@0:49 "
+       "(see --frames)")
+      ->group(group);
+  p.add_option("--alpha", a.study.statistics.alpha, "Significance level; intervals have the confidence 1 - alpha")
+      ->check(CLI::Range(1e-6, 0.5))
+      ->capture_default_str()
+      ->group(group);
+  p.add_flag("--check-template", a.study.check_template,
+             "Map the medoid of each group onto every frame as well, and tell how much of the answer stays. Takes as "
+             "long again for each group; files OUT.template-GROUP.h5")
+      ->group(group);
+  p.add_option(
+       "--regress", a.study.regress,
+       "FILE.csv:COLUMN: a value of each replicate, such as an activity, regressed on the surface, with the same "
+       "control of errors, and predicted from the other replicates (OUT.regression.csv). The table has the "
+       "columns replicate and COLUMN, and group unless names are unique")
+      ->group(group);
+  p.add_flag("--states", a.study.states,
+             "Compare every frame with every other one through the template (OUT.states.csv), and find the principal "
+             "components of the potential: scores in OUT.components.csv, modes as component_1 to 3 in OUT.vtp")
+      ->group(group);
+  p.add_option("--control", a.control, "The family-wise p that patches are made of")
+      ->check(CLI::IsMember({"tfce", "max-t"}))
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--equilibration", a.equilibration,
+               "Frames to cut off at the start of each replicate: none, a number, or auto, which leaves the most "
+               "effective samples of RMSD and mean potential")
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--most-missing", a.study.statistics.most_missing,
+               "A vertex without a counterpart in a larger share of a group's frames is not tested")
+      ->check(CLI::Range(0.0, 0.9))
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--permutations", a.study.statistics.test.max_permutations,
+               "Maximum number of permutations of labels; all are used if there are fewer")
+      ->check(CLI::Range(20, 1000000))
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--seed", a.study.statistics.test.seed, "Random seed; written into the result")
+      ->capture_default_str()
+      ->group(group);
+}
+
+}  // namespace
+
+Verb add_ensemble(CLI::App& app) {
+  auto a = std::make_shared<EnsembleArguments>();
+  CLI::App* parser =
+      app.add_subcommand("ensemble", "Compare two groups of simulations: where the difference is more than noise");
+  parser->footer(
+      "One surface, the template, is mapped onto every frame. Each replicate of a group is one sample. Writes OUT.h5 "
+      "(potential of\n"
+      "each frame in each vertex; HDF5), OUT.vtp (means, difference, intervals, p), OUT.residues.csv, OUT.patches.csv, "
+      "OUT.json.\n"
+      "docs/ensembles.md explains them. Unlike in other commands, --max-step is 0.7 unless it is given.");
+  add_input_options(*parser, *a);
+  parser->add_option("-o,--output", a->study.run.output, "Prefix of the results")->required();
+  add_run_options(*parser, *a);
+  add_statistics_options(*parser, *a);
+  add_settings(*parser, a->settings, SettingsFor::kVariants);
+  add_device_options(*parser, a->device);
+  parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  set_help(*parser,
+           {"--output --group --list --charges --from --resume --overwrite --shard --frames --template "
+            "--check-template --select --patch --threads --quiet",
+            {"espdiff ensemble --group wild wild.psf w1.dcd w2.dcd --group mutant mutant.psf m1.dcd m2.dcd -o mutant",
+             "espdiff ensemble --list runs.csv -o mutant --resume",
+             "espdiff ensemble --list runs.csv --shard 2/8 -o part     # one of eight; then:",
+             "espdiff merge part.shard-*-of-8.h5 -o all && espdiff ensemble --from all.h5 -o all"}});
+  return {parser, [a](const Context& context) { return ensemble_verb(*a, context); }};
+}
+
+}  // namespace espdiff::cli

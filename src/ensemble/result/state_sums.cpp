@@ -1,0 +1,125 @@
+// state_sums.cpp: one pass over the columns, all pairs of a block at a time.
+#include "ensemble/result/state_sums.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/not_a_number.h"
+#include "base/progress.h"
+#include "ensemble/file/ensemble_file.h"
+
+namespace espdiff {
+namespace {
+
+/// The block's sums of two frames. Each is added up by itself first, so that long sums stay exact.
+PairSums sums_of(const StateBlock& block, std::size_t i, std::size_t j, const double* weights) {
+  const double *a = block.values(j), *b = block.values(i), *has_a = block.known(j), *has_b = block.known(i);
+  PairSums s;
+  for (std::size_t c = 0; c < block.width(); ++c) {
+    const double w = weights[c] * has_a[c] * has_b[c], d = b[c] - a[c];
+    s.area_A2 += w;
+    s.absolute += w * std::fabs(d);
+    s.squared += w * d * d;
+    s.difference += w * d;
+    s.sign_change += a[c] * b[c] < 0 ? w : 0;
+    s.product += w * a[c] * b[c];
+    s.first += w * a[c] * a[c];
+    s.second += w * b[c] * b[c];
+  }
+  return s;
+}
+
+void add(PairSums& sums, const PairSums& s) {
+  sums.area_A2 += s.area_A2;
+  sums.absolute += s.absolute;
+  sums.squared += s.squared;
+  sums.difference += s.difference;
+  sums.sign_change += s.sign_change;
+  sums.product += s.product;
+  sums.first += s.first;
+  sums.second += s.second;
+}
+
+double product_of(const StateBlock& block, std::size_t i, std::size_t j, const double* weights) {
+  const double *a = block.values(j), *b = block.values(i);
+  double sum = 0;
+  for (std::size_t c = 0; c < block.width(); ++c) sum += weights[c] * a[c] * b[c];
+  return sum;
+}
+
+}  // namespace
+
+Metrics PairSums::metrics() const {
+  Metrics m;
+  m.area_A2 = area_A2;
+  m.mean_abs_difference = area_A2 > 0 ? absolute / area_A2 : kNaN;
+  m.rms_difference = area_A2 > 0 ? std::sqrt(squared / area_A2) : kNaN;
+  m.mean_signed_difference = area_A2 > 0 ? difference / area_A2 : kNaN;
+  m.sign_change_area_fraction = area_A2 > 0 ? sign_change / area_A2 : kNaN;
+  m.hodgkin_index = first + second > 0 ? 2 * product / (first + second) : kNaN;
+  m.carbo_index = first > 0 && second > 0 ? product / std::sqrt(first * second) : kNaN;
+  m.mean_displacement_A = m.mean_path_length_A = kNaN;
+  return m;
+}
+
+Metrics StateSums::metrics(std::size_t source, std::size_t target) const {
+  PairSums sums = pairs[place(std::max(source, target), std::min(source, target))];
+  if (source > target) {
+    sums.difference = -sums.difference;
+    std::swap(sums.first, sums.second);
+  }
+  return sums.metrics();
+}
+
+void StateBlock::read(std::size_t begin, std::size_t end) {
+  width_ = end - begin;
+  values_.resize(frames_.size() * width_);
+  known_.resize(values_.size());
+  std::vector<float> row(width_);
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    file_.read_values(frames_[i], begin, end, row.data());
+    for (std::size_t c = 0; c < width_; ++c) {
+      const bool is_known = std::isfinite(row[c]);
+      values_[i * width_ + c] = is_known ? static_cast<double>(row[c]) : 0;
+      known_[i * width_ + c] = is_known ? 1 : 0;
+    }
+  }
+}
+
+bool StateBlock::is_complete(std::size_t column) const {
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    if (known_[i * width_ + column] == 0) return false;
+  }
+  return true;
+}
+
+StateSums sum_states(const EnsembleFile& file, const std::vector<std::size_t>& frames,
+                     const std::vector<double>& weights) {
+  StateSums sums;
+  sums.n = frames.size();
+  sums.pairs.resize(StateSums::place(sums.n, 0));
+  sums.complete.assign(sums.pairs.size(), 0);
+  StateBlock block(file, frames);
+  for (std::size_t begin = 0; begin < file.n_vertices(); begin += kStateBlock) {
+    CancelRequest().check();
+    const std::size_t end = std::min(file.n_vertices(), begin + kStateBlock);
+    block.read(begin, end);
+    std::vector<double> complete(weights.begin() + static_cast<std::ptrdiff_t>(begin),
+                                 weights.begin() + static_cast<std::ptrdiff_t>(end));
+    for (std::size_t c = 0; c < complete.size(); ++c) {
+      if (!block.is_complete(c)) complete[c] = 0;
+      sums.complete_area_A2 += complete[c];
+    }
+#pragma omp parallel for schedule(dynamic, 4)
+    for (std::size_t i = 0; i < sums.n; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        const std::size_t at = StateSums::place(i, j);
+        add(sums.pairs[at], sums_of(block, i, j, &weights[begin]));
+        sums.complete[at] += product_of(block, i, j, complete.data());
+      }
+    }
+  }
+  return sums;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,365 @@
+// modified_residues.cpp: what stands for modified residues in PDB2PQR's file, and takes its place again afterwards.
+#include "prepare/charges/modified_residues.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <tuple>
+
+#include "align/protonation.h"
+#include "align/residue_names.h"
+#include "io/molecules/select_atoms.h"
+#include "prepare/charges/open_babel.h"
+#include "prepare/charges/preparation.h"
+
+namespace espdiff {
+namespace {
+
+/// Amino acids with a phosphate: the residue without it, and the atom that it is bound to.
+struct Phosphorylated {
+  std::string_view name, parent, oxygen, carbon;
+};
+
+constexpr Phosphorylated kPhosphorylated[] = {
+    {"SEP", "SER", "OG", "CB"}, {"TPO", "THR", "OG1", "CB"}, {"PTR", "TYR", "OH", "CZ"}};
+
+/// CHARMM's phosphoserine of two charges (SEP of PDB2PQR's CHARMM.DAT).
+constexpr float kEsterOxygen = -0.401F, kPhosphorus = 1.099F, kPhosphateOxygen = -0.901F;
+constexpr float kEsterOxygenRadius_A = 1.77F, kPhosphorusRadius_A = 2.15F, kPhosphateOxygenRadius_A = 1.70F;
+constexpr float kPhosphateCharge = -2;
+
+const Phosphorylated* phosphorylated(const std::string& name) {
+  for (const Phosphorylated& row : kPhosphorylated) {
+    if (row.name == name) return &row;
+  }
+  return nullptr;
+}
+
+bool is_phosphate_atom(const Atom& atom) {
+  return atom.name == "P" || (atom.name.size() == 3 && atom.name[0] == 'O' && atom.name[2] == 'P');
+}
+
+bool is_proton(const Atom& atom) { return atom.element == "H" || atom.element == "D"; }
+
+std::optional<std::size_t> atom_named(const Molecule& molecule, const std::vector<std::size_t>& atoms,
+                                      std::string_view name) {
+  for (const std::size_t i : atoms) {
+    if (normalized_atom_name(molecule.atoms[i].name) == name) return i;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::size_t> all_atoms(const Molecule& molecule) {
+  std::vector<std::size_t> all(molecule.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  return all;
+}
+
+void replace_selenomethionine(Molecule& molecule, Preparation& preparation) {
+  for (Residue& residue : molecule.residues) {
+    if (residue.name != "MSE") continue;
+    preparation.renamed.push_back(residue_in_words(residue) + " as MET");
+    residue.name = "MET";
+  }
+  for (Atom& atom : molecule.atoms) {
+    if (molecule.residues[static_cast<std::size_t>(atom.residue)].name != "MET") continue;
+    atom.hetero = false;
+    if (atom.name == "SE") {
+      atom.name = "SD";
+      atom.element = "S";
+    }
+  }
+}
+
+/// PDB2PQR would add O2'.
+void name_deoxynucleotides(Molecule& molecule, Preparation& preparation) {
+  const auto atoms = atoms_of_residues(molecule);
+  for (std::size_t r = 0; r < atoms.size(); ++r) {
+    Residue& residue = molecule.residues[r];
+    if (residue.name != "A" && residue.name != "C" && residue.name != "G" && residue.name != "T") continue;
+    const auto is_oxygen = [&](std::size_t i) { return normalized_atom_name(molecule.atoms[i].name) == "O2'"; };
+    if (std::any_of(atoms[r].begin(), atoms[r].end(), is_oxygen)) continue;
+    const std::string old = residue_in_words(residue);
+    residue.name.insert(0, "D");
+    preparation.renamed.push_back(old + " as " + residue.name);
+  }
+}
+
+/// Longer than a bond of phosphorus and oxygen, or of carbon and nitrogen.
+constexpr double kChainBond_A = 1.8;
+
+/// The atom of another residue that is bound to an atom of this one; both by name.
+std::optional<std::size_t> bound_atom(const Molecule& molecule, std::size_t residue,
+                                      const std::vector<std::vector<std::size_t>>& atoms, const char* own,
+                                      const char* bound) {
+  const std::optional<std::size_t> end = atom_named(molecule, atoms[residue], own);
+  for (std::size_t r = 0; end && r < atoms.size(); ++r) {
+    const std::optional<std::size_t> other = r == residue ? std::nullopt : atom_named(molecule, atoms[r], bound);
+    if (other && norm(molecule.positions[*other] - molecule.positions[*end]) <= kChainBond_A) return other;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::size_t> atoms_named(const Molecule& molecule, const std::string& name) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < molecule.size(); ++i) {
+    if (normalized_atom_name(molecule.atoms[i].name) == name) found.push_back(i);
+  }
+  return found;
+}
+
+bool is_bound(const Molecule& molecule, std::size_t atom, const std::vector<std::size_t>& others) {
+  return std::any_of(others.begin(), others.end(), [&](std::size_t i) {
+    return molecule.atoms[i].residue != molecule.atoms[atom].residue &&
+           norm(molecule.positions[i] - molecule.positions[atom]) <= kChainBond_A;
+  });
+}
+
+/// The phosphate of a chain's first nucleotide is dropped: no force field has it.
+void drop_end_phosphates(Molecule& molecule, Preparation& preparation) {
+  static const std::set<std::string_view> phosphate = {"P", "OP1", "OP2", "OP3", "O3P", "HOP2", "HOP3"};
+  const auto atoms = atoms_of_residues(molecule);
+  const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
+  const std::vector<std::size_t> phosphorus = atoms_named(molecule, "P"), oxygens = atoms_named(molecule, "O3'");
+  std::vector<bool> keep(molecule.size(), true);
+  std::string ends;
+  for (const std::size_t p : phosphorus) {
+    const auto r = static_cast<std::size_t>(molecule.atoms[p].residue);
+    if (kinds[r] != ResidueKind::kNucleotide || is_bound(molecule, p, oxygens)) continue;
+    const bool is_chain = std::any_of(oxygens.begin(), oxygens.end(), [&](std::size_t i) {
+      return molecule.atoms[i].residue == molecule.atoms[p].residue && is_bound(molecule, i, phosphorus);
+    });
+    if (!is_chain) continue;  // a ligand such as AMP
+    for (const std::size_t i : atoms[r]) keep[i] = phosphate.count(normalized_atom_name(molecule.atoms[i].name)) == 0;
+    ends += (ends.empty() ? "" : ", ") + residue_in_words(molecule.residues[r]);
+  }
+  if (ends.empty()) return;
+  molecule = keep_atoms(molecule, keep);
+  preparation.warnings.push_back(
+      "the phosphate at the 5' end was left out (-2 e), since no force field of PDB2PQR has it: " + ends);
+}
+
+/// The neighbours' atoms that stand in for the chain: C, CA and O before N, or N and CA behind C; O3' and C3' before P,
+/// or P behind O3'.
+std::vector<std::size_t> cap_atoms(const Molecule& molecule, std::size_t residue,
+                                   const std::vector<std::vector<std::size_t>>& atoms) {
+  std::vector<std::size_t> cap;
+  const auto add_neighbour = [&](const char* own, const char* bound, std::initializer_list<const char*> names) {
+    const std::optional<std::size_t> other = bound_atom(molecule, residue, atoms, own, bound);
+    if (!other) return;
+    const auto r = static_cast<std::size_t>(molecule.atoms[*other].residue);
+    for (const char* name : names) {
+      const std::optional<std::size_t> i = atom_named(molecule, atoms[r], name);
+      if (i) cap.push_back(*i);
+    }
+  };
+  add_neighbour("N", "C", {"C", "CA", "O"});
+  add_neighbour("C", "N", {"N", "CA"});
+  add_neighbour("P", "O3'", {"O3'", "C3'"});
+  add_neighbour("O3'", "P", {"P"});
+  return cap;
+}
+
+std::size_t nearest_of(const Molecule& molecule, std::size_t n_first, const Vec3d& place) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < n_first; ++i) {
+    if (norm(molecule.positions[i] - place) < norm(molecule.positions[best] - place)) best = i;
+  }
+  return best;
+}
+
+/// Replaces the hydroxyl hydrogen of a residue that was prepared without its phosphate, which is given back.
+void add_phosphate(Molecule& residue, const Molecule& before, const Phosphorylated& kind) {
+  constexpr double kHydroxyl_A = 1.2;
+  residue.residues.front().name = kind.name;
+  const std::vector<std::size_t> own = all_atoms(residue);
+  const std::optional<std::size_t> oxygen = atom_named(residue, own, kind.oxygen),
+                                   carbon = atom_named(residue, own, kind.carbon);
+  if (!oxygen || !carbon) return;
+  float hydroxyl = residue.charges[*oxygen];
+  std::vector<std::size_t> kept;
+  for (const std::size_t i : own) {
+    const bool is_hydroxyl =
+        is_proton(residue.atoms[i]) && norm(residue.positions[i] - residue.positions[*oxygen]) < kHydroxyl_A;
+    if (is_hydroxyl) hydroxyl += residue.charges[i];
+    if (!is_hydroxyl) kept.push_back(i);
+  }
+  residue.charges[*oxygen] = kEsterOxygen;
+  residue.radii[*oxygen] = kEsterOxygenRadius_A;
+  residue.charges[*carbon] += hydroxyl + kPhosphateCharge - (kEsterOxygen + kPhosphorus + 3 * kPhosphateOxygen);
+  residue = residue_alone(residue, 0, kept);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (!is_phosphate_atom(before.atoms[i])) continue;
+    const bool is_center = before.atoms[i].name == "P";
+    residue.atoms.push_back(before.atoms[i]);
+    residue.positions.push_back(before.positions[i]);
+    residue.radii.push_back(is_center ? kPhosphorusRadius_A : kPhosphateOxygenRadius_A);
+    residue.charges.push_back(is_center ? kPhosphorus : kPhosphateOxygen);
+  }
+}
+
+/// A nucleotide of which a modified one has the ring: guanine or uracil, which have fewest atoms beside it to lose.
+std::string parent_nucleotide(const Molecule& molecule, const std::vector<std::size_t>& atoms) {
+  const std::string base = atom_named(molecule, atoms, "N9") ? "G" : "U";
+  if (atom_named(molecule, atoms, "O2'")) return base;
+  return base == "G" ? "DG" : "DC";
+}
+
+}  // namespace
+
+Molecule residue_alone(const Molecule& molecule, std::size_t residue, const std::vector<std::size_t>& atoms) {
+  Molecule one;
+  one.name = molecule.name;
+  one.residues = {molecule.residues[residue]};
+  for (const std::size_t i : atoms) {
+    one.atoms.push_back(molecule.atoms[i]);
+    one.atoms.back().residue = 0;
+    one.positions.push_back(molecule.positions[i]);
+    one.radii.push_back(molecule.radii[i]);
+    one.charges.push_back(molecule.charges.empty() ? 0 : molecule.charges[i]);
+  }
+  return one;
+}
+
+void append_residue(Molecule& all, const Molecule& one) {
+  const auto residue = static_cast<std::int32_t>(all.residues.size());
+  all.residues.push_back(one.residues.front());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    all.atoms.push_back(one.atoms[i]);
+    all.atoms.back().residue = residue;
+    all.positions.push_back(one.positions[i]);
+    all.radii.push_back(one.radii[i]);
+    all.charges.push_back(one.charges[i]);
+  }
+}
+
+void rename_residues(Molecule& molecule, Preparation& preparation) {
+  replace_selenomethionine(molecule, preparation);
+  name_deoxynucleotides(molecule, preparation);
+  drop_end_phosphates(molecule, preparation);
+}
+
+bool is_known_amino_acid(const std::string& name) {
+  static const std::set<std::string_view> modified = {"CSO", "CME", "OCS", "CSD", "PCA", "MLY", "M3L",
+                                                      "KCX", "LLP", "HYP", "SEP", "TPO", "PTR", "TYS"};
+  const char letter = residue_letter(name);
+  return letter >= 'A' && letter <= 'Z' && modified.count(name) == 0;
+}
+
+GroupSource amino_acid_source(const Molecule& molecule, std::size_t residue, const std::vector<std::size_t>& atoms,
+                              bool ligands_auto) {
+  constexpr std::size_t kFewestPlaced = 3, kPhosphateAtoms = 4;
+  const std::string& name = molecule.residues[residue].name;
+  const auto count_if = [&](const auto& is) {
+    return static_cast<std::size_t>(std::count_if(atoms.begin(), atoms.end(), is));
+  };
+  const std::size_t n_placed = count_if([&](std::size_t i) {
+    static const std::set<std::string_view> backbone = {"N", "CA", "C", "O", "CB"};
+    return backbone.count(molecule.atoms[i].name) > 0;
+  });
+  if (n_placed < kFewestPlaced) return GroupSource::kTorn;
+  if (is_known_amino_acid(name)) return GroupSource::kNone;
+  const std::size_t n_phosphate = count_if([&](std::size_t i) { return is_phosphate_atom(molecule.atoms[i]); });
+  if (phosphorylated(name) != nullptr && n_phosphate == kPhosphateAtoms) return GroupSource::kPhosphate;
+  return ligands_auto ? GroupSource::kModified : GroupSource::kNone;
+}
+
+GroupSource nucleotide_source(const Molecule& molecule, std::size_t residue,
+                              const std::vector<std::vector<std::size_t>>& atoms, bool ligands_auto) {
+  if (residue_letter(molecule.residues[residue].name) != '?' || !ligands_auto) return GroupSource::kNone;
+  const bool in_chain =
+      bound_atom(molecule, residue, atoms, "P", "O3'") || bound_atom(molecule, residue, atoms, "O3'", "P");
+  return in_chain ? GroupSource::kModified : GroupSource::kOpenBabel;
+}
+
+Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, double ph, int& net_charge,
+                                 const Progress& progress) {
+  const auto atoms = atoms_of_residues(molecule);
+  std::vector<std::size_t> own;
+  for (const std::size_t i : atoms[residue]) {
+    if (!is_proton(molecule.atoms[i])) own.push_back(i);
+  }
+  const std::size_t n_own = own.size();
+  std::vector<std::size_t> with_cap = own;
+  for (const std::size_t i : cap_atoms(molecule, residue, atoms)) with_cap.push_back(i);
+  Molecule fragment = residue_alone(molecule, residue, with_cap);
+  // The next phosphate would be one more charge: a methyl group stands in for it.
+  for (std::size_t i = n_own; i < with_cap.size(); ++i) {
+    if (fragment.atoms[i].element == "P") fragment.atoms[i].name = fragment.atoms[i].element = "C";
+  }
+  const ChargedLigand ligand = charge_by_open_babel(fragment, molecule, ph, progress);
+  std::vector<std::size_t> kept;
+  double sum = 0;
+  for (std::size_t i = 0; i < ligand.molecule.size(); ++i) {
+    const bool is_heavy = i < with_cap.size();
+    if ((is_heavy ? i : nearest_of(ligand.molecule, with_cap.size(), ligand.molecule.positions[i])) >= n_own) continue;
+    kept.push_back(i);
+    sum += static_cast<double>(ligand.molecule.charges[i]);
+  }
+  Molecule charged = residue_alone(ligand.molecule, 0, kept);
+  net_charge = static_cast<int>(std::lround(ligand.net_charge));
+  for (float& q : charged.charges) q += static_cast<float>((net_charge - sum) / static_cast<double>(kept.size()));
+  return charged;
+}
+
+Molecule with_known_residues(const Molecule& molecule, const std::vector<GroupSource>& sources) {
+  static const std::set<std::string_view> glycine = {"N", "CA", "C", "O", "OXT"};
+  static const std::set<std::string_view> nucleotide = {"P",   "OP1", "OP2", "O5'", "C5'", "C4'", "O4'",
+                                                        "C3'", "O3'", "C2'", "O2'", "C1'", "N1",  "C2",
+                                                        "N3",  "C4",  "C5",  "C6",  "N7",  "C8",  "N9"};
+  const auto atoms = atoms_of_residues(molecule);
+  const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
+  Molecule known = molecule;
+  std::vector<bool> keep(molecule.size(), true);
+  for (std::size_t r = 0; r < sources.size(); ++r) {
+    if (sources[r] != GroupSource::kPhosphate && sources[r] != GroupSource::kModified) continue;
+    const bool is_modified = sources[r] == GroupSource::kModified, is_base = kinds[r] == ResidueKind::kNucleotide;
+    const std::set<std::string_view>& parent = is_base ? nucleotide : glycine;
+    known.residues[r].name = !is_modified ? std::string(phosphorylated(molecule.residues[r].name)->parent)
+                             : is_base    ? parent_nucleotide(molecule, atoms[r])
+                                          : "GLY";
+    for (const std::size_t i : atoms[r]) {
+      const Atom& atom = molecule.atoms[i];
+      keep[i] = is_modified ? parent.count(normalized_atom_name(atom.name)) > 0
+                            : !is_phosphate_atom(atom) && !is_proton(atom);
+      known.atoms[i].hetero = false;
+    }
+  }
+  return std::find(keep.begin(), keep.end(), false) == keep.end() ? known : keep_atoms(known, keep);
+}
+
+void restore_residues(Molecule& prepared, const Molecule& before, const std::vector<GroupSource>& sources,
+                      const Molecule& modified) {
+  const auto key = [](const Residue& r) { return std::tuple(r.chain, r.number, r.insertion_code); };
+  std::map<decltype(key(Residue())), std::size_t> of_before, of_modified;
+  for (std::size_t r = 0; r < sources.size(); ++r) {
+    if (sources[r] == GroupSource::kPhosphate || sources[r] == GroupSource::kModified)
+      of_before[key(before.residues[r])] = r;
+  }
+  if (of_before.empty()) return;
+  for (std::size_t r = 0; r < modified.residues.size(); ++r) of_modified[key(modified.residues[r])] = r;
+  const auto atoms = atoms_of_residues(prepared), atoms_before = atoms_of_residues(before),
+             atoms_modified = atoms_of_residues(modified);
+  Molecule restored;
+  restored.name = prepared.name;
+  restored.radii_origin = prepared.radii_origin;
+  restored.left_out = prepared.left_out;
+  for (std::size_t r = 0; r < prepared.residues.size(); ++r) {
+    Molecule one = residue_alone(prepared, r, atoms[r]);
+    const auto found = of_before.find(key(prepared.residues[r]));
+    if (found != of_before.end() && sources[found->second] == GroupSource::kPhosphate) {
+      const std::size_t b = found->second;
+      add_phosphate(one, residue_alone(before, b, atoms_before[b]), *phosphorylated(before.residues[b].name));
+    } else if (found != of_before.end()) {
+      const std::size_t m = of_modified.at(found->first);
+      one = residue_alone(modified, m, atoms_modified[m]);
+    }
+    append_residue(restored, one);
+  }
+  prepared = std::move(restored);
+}
+
+}  // namespace espdiff

@@ -1,0 +1,63 @@
+// modified_residues.h: residues of chains that PDB2PQR does not know, or that it could not complete.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "base/types.h"
+#include "prepare/charges/groups.h"
+
+namespace espdiff {
+
+struct Preparation;
+
+/// Gives residues the names by which the force fields have them: selenomethionine becomes methionine, with sulfur;
+/// deoxynucleotides under the names of RNA, as in files of before 2007, get those of DNA. Drops the phosphate at the 5'
+/// end of a chain, with a warning: no force field has one.
+void rename_residues(Molecule& molecule, Preparation& preparation);
+
+/// Where the charges of an amino acid come from: kNone for those that the force fields have. kPhosphate for SEP, TPO
+/// and PTR with all atoms of their phosphate. kTorn where fewer than three of N, CA, C, O and CB are there, by which
+/// the others could be placed. kModified for other names, if options.ligands_auto.
+/// @param atoms of the residue
+GroupSource amino_acid_source(const Molecule& molecule, std::size_t residue, const std::vector<std::size_t>& atoms,
+                              bool ligands_auto);
+
+/// Where the charges of a nucleotide come from: kNone for those that the force fields have; kModified for other names
+/// within a chain, kOpenBabel for those beside one (AMP, FMN), if ligands_auto.
+/// @param atoms [residue] from atoms_of_residues()
+GroupSource nucleotide_source(const Molecule& molecule, std::size_t residue,
+                              const std::vector<std::vector<std::size_t>>& atoms, bool ligands_auto);
+
+/// Whether PDB2PQR's force fields have an amino acid of this name; the names of ends (NALA) and of protonation states
+/// count.
+bool is_known_amino_acid(const std::string& name);
+
+/// The residue with hydrogens and charges by Open Babel. Neighbours in the chain stand in as an acetyl group at N and a
+/// methylamide at C, or methyl groups at P and O3' of a nucleotide, which are taken away again; then each atom of the
+/// residue gets an equal share of what its charges lack of the whole number.
+/// @param net_charge receives that number  @throws as charge_by_open_babel()
+Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, double ph, int& net_charge,
+                                 const Progress& progress);
+
+/// What PDB2PQR gets: phosphorylated residues (kPhosphate) as SER, THR or TYR without the phosphate, modified ones
+/// (kModified) as glycine, or as a nucleotide of their ring, in their place, so that chains are whole.
+/// @param sources [residue]
+Molecule with_known_residues(const Molecule& molecule, const std::vector<GroupSource>& sources);
+
+/// Puts back what with_known_residues() took. A phosphate is ionized, as at pH 7 (the second pKa is 5.6 to 6), with
+/// CHARMM's charges of phosphoserine as PDB2PQR ships them; they take the place of the hydroxyl group, and its carbon
+/// takes the rest, so that the residue has -2 e more than without.
+/// @param prepared  by PDB2PQR  @param before as given to with_known_residues()
+/// @param modified  residues of charge_modified_residue()
+void restore_residues(Molecule& prepared, const Molecule& before, const std::vector<GroupSource>& sources,
+                      const Molecule& modified);
+
+/// A residue as a molecule of its own; charges are 0 where the molecule has none.
+Molecule residue_alone(const Molecule& molecule, std::size_t residue, const std::vector<std::size_t>& atoms);
+
+/// Appends a molecule of one residue.
+void append_residue(Molecule& all, const Molecule& one);
+
+}  // namespace espdiff

@@ -1,0 +1,70 @@
+// separate_atoms.cpp: counts atoms with too near a neighbour, by cells of that distance.
+#include "prepare/charges/separate_atoms.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "base/molecule/residue_label.h"
+#include "base/types.h"
+
+namespace espdiff {
+namespace {
+
+constexpr double kTooNear_A = 0.5, kMostNearShare = 0.1;
+constexpr std::size_t kLeastNear = 10;
+
+using Cell = std::array<std::int64_t, 3>;
+
+Cell cell_at(const Vec3d& p) {
+  return {std::llround(std::floor(p.x / kTooNear_A)), std::llround(std::floor(p.y / kTooNear_A)),
+          std::llround(std::floor(p.z / kTooNear_A))};
+}
+
+/// An atom of the cells around one that lies too near, other than itself.
+std::optional<std::size_t> near_atom(const Molecule& molecule, const std::map<Cell, std::vector<std::size_t>>& cells,
+                                     std::size_t atom) {
+  const Vec3d& at = molecule.positions[atom];
+  const Cell centre = cell_at(at);
+  for (int k = 0; k < 27; ++k) {
+    const auto found = cells.find({centre[0] + k % 3 - 1, centre[1] + k / 3 % 3 - 1, centre[2] + k / 9 - 1});
+    if (found == cells.end()) continue;
+    for (const std::size_t other : found->second) {
+      if (other != atom && norm(molecule.positions[other] - at) < kTooNear_A) return other;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string named_atom(const Molecule& molecule, std::size_t atom) {
+  const auto residue = static_cast<std::size_t>(molecule.atoms[atom].residue);
+  return molecule.atoms[atom].name + " of " + residue_label(molecule.residues[residue]);
+}
+
+}  // namespace
+
+void require_separate_atoms(const Molecule& molecule) {
+  std::map<Cell, std::vector<std::size_t>> cells;
+  for (std::size_t i = 0; i < molecule.size(); ++i) cells[cell_at(molecule.positions[i])].push_back(i);
+  std::size_t n_near = 0;
+  std::optional<std::pair<std::size_t, std::size_t>> first;
+  for (std::size_t i = 0; i < molecule.size(); ++i) {
+    const std::optional<std::size_t> other = near_atom(molecule, cells, i);
+    if (!other) continue;
+    ++n_near;
+    if (!first) first = {i, *other};
+  }
+  if (n_near < kLeastNear || static_cast<double>(n_near) < kMostNearShare * static_cast<double>(molecule.size()))
+    return;
+  throw InputError(molecule.name + ": " + std::to_string(n_near) + " of " + std::to_string(molecule.size()) +
+                   " atoms lie within 0.5 A of another (" + named_atom(molecule, first->first) + " and " +
+                   named_atom(molecule, first->second) +
+                   "): give coordinates in Angstrom, not in nm, and each chain and model once");
+}
+
+}  // namespace espdiff

@@ -1,0 +1,118 @@
+// Charges from PSF and prmtop files, as real programs wrote them, cut, and for other coordinates.
+#include "io/structures/read_topology.h"
+
+#include <doctest/doctest.h>
+
+#include "base/error.h"
+#include "io/structures/read_structure.h"
+#include "io/structures/structure_text.h"
+#include "support/test_data.h"
+#include "support/text.h"
+
+using namespace espdiff;
+using espdiff_test::message_of;
+using espdiff_test::real_input;
+using espdiff_test::replaced;
+using espdiff_test::ScratchFolder;
+using espdiff_test::sum;
+
+namespace {
+
+const char* const kPsf =
+    "PSF\n\n       1 !NTITLE\n REMARKS made\n\n       2 !NATOM\n"
+    "       1 U    1    MET  N    NH3   -0.300000       14.0070           0\n"
+    "       2 U    1    MET  HT1  HC     0.330000        1.0080           0\n\n       1 !NBOND: bonds\n       1       "
+    "2\n";
+const char* const kPrmtop =
+    "%VERSION  VERSION_STAMP = V0001.000\n%FLAG TITLE\n%FORMAT(20a4)\nmade\n%FLAG POINTERS\n%FORMAT(10I8)\n"
+    "       2       1\n%FLAG ATOM_NAME\n%FORMAT(20a4)\nN   H1  \n%FLAG CHARGE\n%FORMAT(5E16.8)\n"
+    "  2.90090000E+00  1.82223000E+01\n%FLAG RADII\n%FORMAT(5E16.8)\n  1.55000000E+00  1.30000000E+00\n";
+
+}  // namespace
+
+TEST_CASE("read_topology: a PSF's and a prmtop's atoms") {
+  const ScratchFolder folder;
+  const Topology psf = read_topology(folder.write("a.psf", kPsf));
+  CHECK(psf.names == std::vector<std::string>{"N", "HT1"});
+  CHECK(psf.charges == std::vector<float>{-0.3F, 0.33F});
+  CHECK(psf.radii.empty());
+  CHECK(is_topology(folder.file("a.psf")));
+  CHECK_FALSE(is_topology(folder.write("a.txt", "no topology\n")));
+  const Topology prmtop = read_topology(folder.write("a.prmtop", kPrmtop));
+  CHECK(prmtop.names == std::vector<std::string>{"N", "H1"});
+  CHECK(prmtop.charges[1] == doctest::Approx(1).epsilon(1e-6));
+  CHECK(prmtop.radii == std::vector<float>{1.55F, 1.3F});
+}
+
+TEST_CASE("read_topology: cut and wrong files are refused with the line") {
+  const ScratchFolder folder;
+  const auto refused = [&](const char* name, const std::string& text) {
+    const std::string path = folder.write(name, text);
+    return message_of([&] { read_topology(path); }).substr(path.size());
+  };
+  const std::string psf = kPsf, prmtop = kPrmtop;
+  CHECK(refused("b.psf", psf.substr(0, psf.find("       2 U"))).find("the PSF ends after 1 of 2 atoms") !=
+        std::string::npos);
+  CHECK(refused("c.psf", "PSF\n\n 1 !NATOM\n 1 U 1 MET N NH3 x 14\n").find(":4: a PSF atom is") == 0);
+  CHECK(refused("d.psf", "PSF\n\n 1 !NTITLE\n").find("no !NATOM section") != std::string::npos);
+  CHECK(refused("e.prmtop", prmtop.substr(0, prmtop.find("  2.9009"))).find("%FLAG CHARGE has 0 values for 2 atoms") !=
+        std::string::npos);
+  CHECK(refused("g.psf", "PSF\n\n 1 !NATOM\n 1 U 1 MET N NH3 1e39 14\n") ==
+        ":4: the charge is 1e+39; -1e+06 to 1e+06 were expected");
+  CHECK(refused("h.psf", "PSF\n\n 10000000 !NATOM\n") ==
+        ":3: the number of atoms is 10000000; 1 to 5000000 were expected");
+  CHECK(refused("i.prmtop", replaced(prmtop, "  1.30000000E+00", " -1.30000000E+00")) ==
+        ":14: %FLAG RADII: value 2 is -1.3; 0 to 1000 were expected");
+  CHECK(refused("j.prmtop", replaced(prmtop, "       2       1", "10000000       1")) ==
+        ":5: the number of atoms is 10000000; 1 to 5000000 were expected");
+  CHECK(refused("k.prmtop", replaced(prmtop, "(5E16.8)\n  2.9", "(5E9223372036854775807.8)\n  2.9"))
+            .find("%FLAG CHARGE has 1 values for 2 atoms") != std::string::npos);
+  CHECK(refused("f.dx", "object 1 class gridpositions counts 1 1 1\n").find("not read as a topology") !=
+        std::string::npos);
+}
+
+TEST_CASE("read_topology: a PSF of a million atoms is read in seconds, and a mistake in the last has its line") {
+  const ScratchFolder folder;
+  const std::size_t n = 1'000'000;
+  std::string text = "PSF\n\n " + std::to_string(n) + " !NATOM\n";
+  for (std::size_t i = 0; i + 1 < n; ++i) text += "1 S 1 ALA CA CT 0.5 12 0\n";
+  const std::string good = folder.write("good.psf", text + "1 S 1 ALA CA CT 0.5 12 0\n");
+  CHECK(read_topology(good).charges.size() == n);
+  const std::string bad = folder.write("bad.psf", text + "1 S 1 ALA CA CT 1e9 12 0\n");
+  CHECK(message_of([&] { read_topology(bad); }) ==
+        bad + ":1000003: the charge is 1e+09; -1e+06 to 1e+06 were expected");
+}
+
+TEST_CASE("read_topology: ubiquitin's PSF gives the charges of its PQR; DHFR's prmtop a net charge of -11") {
+  const auto psf = real_input("ubq/ubq.psf"), pdb = real_input("ubq/ubq.pdb"), pqr = real_input("ubq/ubq.pqr"),
+             prmtop = real_input("box_dhfr_jac/JAC.prmtop");
+  if (!psf) return;
+  Molecule molecule = read_structure(*pdb, {1, true, true});
+  take_topology(molecule, read_topology(*psf));
+  const Molecule expected = read_structure(*pqr, {1, true, true});
+  REQUIRE(molecule.charges.size() == expected.charges.size());
+  CHECK(sum(molecule.charges) == doctest::Approx(sum(expected.charges)).epsilon(1e-6));
+  const Topology dhfr = read_topology(*prmtop);
+  CHECK(dhfr.charges.size() == 23558);
+  CHECK(sum(dhfr.charges) == doctest::Approx(-11).epsilon(1e-4));
+  CHECK(message_of([&] { take_topology(molecule, dhfr); }).find("has 23558 atoms, and") != std::string::npos);
+}
+
+TEST_CASE("read_psf_atoms: residues, chains and charges; a prmtop is refused") {
+  const ScratchFolder folder;
+  const Molecule molecule =
+      read_psf_atoms(folder.write("a.psf",
+                                  "PSF\n\n       3 !NATOM\n       1 PROT 7    ALA  N    NH1  -0.470000  14.0070  0\n"
+                                  "       2 PROT 7    ALA  CA   CT1   0.070000  12.0110  0\n       3 PROT 8A   GLY  N  "
+                                  "  NH1  -0.400000  14.0070  0\n"));
+  REQUIRE(molecule.size() == 3);
+  CHECK(molecule.charges == std::vector<float>{-0.47F, 0.07F, -0.4F});
+  REQUIRE(molecule.residues.size() == 2);
+  CHECK(molecule.residues[1].name == "GLY");
+  CHECK(molecule.residues[1].number == 8);
+  CHECK(molecule.residues[1].insertion_code == 'A');
+  CHECK(molecule.residues[1].chain == "PROT");
+  CHECK(molecule.atoms[1].element == "C");
+  CHECK(molecule.radii[0] > 1);
+  CHECK(message_of([&] { read_psf_atoms(folder.write("a.pdb", "ATOM  \n")); }).find("is no PSF") != std::string::npos);
+}
