@@ -131,7 +131,7 @@ namespace eval ::espdiff {
             {-range-of text {} "One scale for a study: handles whose automatic ranges count too, so that -range auto is\
                 the widest of all; with -view linked also for the potentials"}
             {-colors choice red-blue "Colours of signed values, from negative to positive; colour-blind\
-                readers can tell the ends of each apart. cool-warm: blue to red, paler; purple-orange: where red and\
+                readers can distinguish the ends of each. cool-warm: blue to red, paler; purple-orange: where red and\
                 blue stand for something else" {red-blue cool-warm purple-orange}}
             {-uncertain choice fade "fade: colours fade into grey the larger the slip; transparent: the\
                 surface does; plain: full colours" {fade transparent plain}}
@@ -154,7 +154,7 @@ namespace eval ::espdiff {
         summary {Draws the surface in VMD in the place of the drawings that are there. Of an ensemble: the template with
             the difference of the groups (-color also source, target: means of the groups, and t), faded where it is
             not significant. Parts meet in smooth lines;
-            parts without a counterpart are grey and hatched. View, top molecule and colour settings do not change. A
+            unmatched parts are grey and hatched. View, top molecule and colour settings do not change. A
             drawing is up to four graphics molecules (eight in linked views), which are shown, hidden and deleted together.} \
         returns {the graphics molecules' ids} example {espdiff draw comparison1 -color difference -range {-5 5}}]
 
@@ -206,9 +206,9 @@ namespace eval ::espdiff {
             {-residues file {} "CSV file that gets one value of each residue of the source for each frame, a row a frame"}
             {-residue-quantity text {} "Column of the residue table for -residues; mean_abs_difference, or without\
                 potentials mean_displacement_A"}
-            {-resume boolean 0 "Go on where an interrupted run left the file"}
+            {-resume boolean 0 "Continue where an interrupted run left the file"}
             {-overwrite boolean 0 "Replace the file if it exists"}
-            {-on-error choice stop "skip writes a row with the error in its column `error`, and goes on" {stop skip}}
+            {-on-error choice stop "skip writes a row with the error in its column `error`, and continues" {stop skip}}
             {-callback command {} "Called as CMD frame row after each row, a dictionary by column; `break` cancels"}
         } $computing] \
         summary {Compares each frame with the reference, or with the frame before, and writes a row for each as it is

@@ -2,7 +2,7 @@
 
 namespace eval ::espdiff {
     # Does what can be done within so many milliseconds; returns whether the run has ended. The blocking form and the
-    # one in the background both go on by this.
+    # one in the background both continue by this.
     proc trajectory_advance {handle milliseconds} {
         upvar #0 ::espdiff::$handle run
         if {$run(state) ne "running"} { return 1 }

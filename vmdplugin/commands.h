@@ -29,13 +29,13 @@ struct Command {
 
 /// compute_commands.cpp: start computations, watch them, and end them.
 std::vector<Command> compute_commands();
-/// result_commands.cpp: what came out, as values and as files.
+/// result_commands.cpp: results as values and as files.
 std::vector<Command> result_commands();
 /// array_commands.cpp: surfaces as arrays, for other languages.
 std::vector<Command> array_commands();
 /// parse_computation() of compute_commands.cpp: reads what is common to all computations from OPTIONS, the settings of
-/// the comparison included; a regularize key is given to `regularize` where that is not null, else refused. Keys that
-/// were read before are left alone.
+/// the comparison included; a regularize key is given to `regularize` where that is not null, otherwise refused. Keys
+/// that were read before are left alone.
 Computation parse_computation(class DictReader& reader, bool* regularize);
 /// The engine that the computation asks for; on the worker's thread.
 std::unique_ptr<Engine> engine_for(const Computation& computation);
@@ -48,7 +48,7 @@ std::vector<Command> ensemble_commands();
 std::vector<Command> potential_commands();
 /// trajectory_commands.cpp: runs over frames, and tables as text.
 std::vector<Command> trajectory_commands();
-/// drawing_commands.cpp: what came out, as maps and triangles for VMD.
+/// drawing_commands.cpp: results as maps and triangles for VMD.
 std::vector<Command> drawing_commands();
 /// pick_commands.cpp: what a click on a drawn surface hits.
 std::vector<Command> pick_commands();

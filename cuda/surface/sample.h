@@ -23,7 +23,7 @@ struct MapGrid : DeviceGrid {
   /// B-splines of this order; periodic maps only.
   int spline_order = 0;
   /// Point charges whose potential is added to what the values say: the direct part of Ewald's sum where the map is
-  /// periodic; else isolated charges, whose map has no points (size 0) and is nothing but their sum.
+  /// periodic; otherwise isolated charges, whose map has no points (size 0) and is nothing but their sum.
   std::shared_ptr<const ChargeSums> charge_sums;
   double zero = 0;                          ///< subtracted from every sample, in the map's unit
   std::shared_ptr<const MapOrigin> origin;  ///< of a map that was computed here; null for others

@@ -138,12 +138,12 @@ class Ensemble(EngineResult):
 
     @property
     def residues(self):
-        """The table of OUT.residues.csv: a pandas.DataFrame where pandas is installed, else a dict of columns."""
+        """The table of OUT.residues.csv: a pandas.DataFrame where pandas is installed, otherwise a dict of columns."""
         return table_of(self._core.residue_columns())
 
     @property
     def frames(self):
-        """What each frame is and how it was mapped: a pandas.DataFrame where pandas is installed, else columns."""
+        """What each frame is and how it was mapped: a pandas.DataFrame where pandas is installed, otherwise columns."""
         return table_of(self._core.frame_columns())
 
     def to_frame(self):
@@ -227,7 +227,7 @@ def ensemble(groups=None, *, output=None, potential: str = "auto", device: str =
     order = {name: value for name, value in options.items() if name in ORDER}
     settings = {name: value for name, value in options.items() if name not in ORDER}
     if output is None and (order.get("shard") or order.get("resume")):
-        raise _core.InputError("output: a part of an ensemble, or one to go on with, needs files")
+        raise _core.InputError("output: a part of an ensemble, or one to continue, needs files")
     if groups is None and not order.get("from_file"):
         raise _core.InputError('groups: none is given; name one or two, {"wild": ["w1.pdb", ...], "mutant": [...]}')
     folder = tempfile.TemporaryDirectory(prefix="espdiff-") if output is None else None

@@ -199,7 +199,7 @@ def matrix(states, labels=None, *, groups=None, potential: str = "auto", pme_cel
     """Compares every state with every other one, in both directions.
 
     states: as in compare(). labels: a name for each; paths name themselves. groups: optional, one for each state.
-    output: prefix of OUT.csv and OUT.json; with `resume` a run that broke off goes on. shard: "2/8" computes a part,
+    output: prefix of OUT.csv and OUT.json; with `resume` a run that broke off continues. shard: "2/8" computes a part,
     for espdiff merge; it needs `output`.
     template: "medoid", a label, a number from 0, or a structure file, whose surface is mapped onto each state: a mapping
     for each state instead of each pair, and differences of potentials only. exact_sample: pairs, chosen at random, that
@@ -215,7 +215,7 @@ def matrix(states, labels=None, *, groups=None, potential: str = "auto", pme_cel
     if labels is None:
         labels = labels_of_states(states)
     if (own.get("shard") or own.get("resume")) and output is None:
-        raise _core.InputError("output: a part of a matrix, or one to go on with, needs files")
+        raise _core.InputError("output: a part of a matrix, or one to continue, needs files")
     roles = [f"states[{i}]" for i in range(len(states))]
     options, arrays = _array_fields(options, len(states))
     given = _with_arrays([state_of(state, role) for state, role in zip(states, roles)], states, arrays, roles)

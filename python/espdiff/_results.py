@@ -48,7 +48,7 @@ def verdict_of(certificate):
 
 
 def table_of(columns):
-    """A pandas.DataFrame where pandas is installed, else the dict of columns."""
+    """A pandas.DataFrame where pandas is installed, otherwise the dict of columns."""
     try:
         import pandas
     except ImportError:
@@ -119,7 +119,7 @@ class Comparison(EngineResult):
     path_length: np.ndarray = _array("path_length", "(vertices) float32, A", "NaN where unmatched")
     residue_index: np.ndarray = _array("residue_index", "(vertices) int32", "row of `residues`; -1 for none")
     corrupt: np.ndarray = _array("corrupt", "(triangles) uint8", "not 0 where the mapping cannot be trusted")
-    unmatched: np.ndarray = _array("unmatched", "(triangles) uint8", "not 0 where there is no counterpart; empty where all have one")
+    unmatched: np.ndarray = _array("unmatched", "(triangles) uint8", "not 0 where it is unmatched; empty where all are matched")
     area: np.ndarray = _array("area", "(vertices) float64, A^2", "a third of a vertex's triangles, without unmatched and corrupt ones")
 
     def __init__(self, core):
@@ -202,7 +202,7 @@ class Comparison(EngineResult):
 
     @property
     def residues(self):
-        """The residue table: a pandas.DataFrame where pandas is installed, else a dict of columns."""
+        """The residue table: a pandas.DataFrame where pandas is installed, otherwise a dict of columns."""
         if self._residues is None:
             self._residues = table_of(self._core.residue_columns())
         return self._residues

@@ -51,7 +51,7 @@ def matrix(client, states, labels=None, *, output, parts=None, resume=False, ove
     """espdiff.matrix() by the workers of a Client.
 
     output: prefix of the files, in a folder that all workers see. parts: how many there are, 4 for each worker without
-    it. resume: parts that broke off go on. Other arguments as of espdiff.matrix(). Returns a Matrix.
+    it. resume: parts that broke off continue. Other arguments as of espdiff.matrix(). Returns a Matrix.
     """
     _check(client)
     states = [os.path.abspath(s) if isinstance(s, (str, os.PathLike)) else state_of(s, f"states[{i}]")

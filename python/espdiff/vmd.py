@@ -9,7 +9,7 @@ A state is the id of a molecule in VMD, an `atomsel`, the path of a structure, o
 (docs/tcl.md, Source and target). Options are those of the Tcl commands, with underscores and without the dash.
 
 This module needs neither the engine's Python extension nor NumPy, since VMD's Python is whatever VMD was built with;
-arrays are NumPy's where it is there, else memoryviews.
+arrays are NumPy's where it is there, otherwise memoryviews.
 """
 
 import csv

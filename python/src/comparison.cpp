@@ -192,7 +192,7 @@ void add_comparison(nb::module_& module) {
       .def_prop_ro("target_residue_index", array_of(&S::target_residue),
                    "(vertices) int32: the target's residue where a vertex is mapped to; -1 for none.")
       .def_prop_ro("unmatched", array_of(&S::unmatched),
-                   "(triangles) uint8: not 0 where there is no counterpart; empty where all have one.")
+                   "(triangles) uint8: not 0 where it is unmatched; empty where all are matched.")
       .def_prop_ro(
           "area", [](const Comparison& c) { return array_from(matched_areas(c.result.surface)); },
           "(vertices) float64, A^2: a third of a vertex's triangles, without unmatched and corrupt ones.")

@@ -180,7 +180,7 @@ void add_ensemble_result(nb::module_& module) {
           "{name: Ensemble}: the fields besides the potential.")
       .def_prop_ro("design_warnings", [](const PyEnsemble& e) { return e.warnings; })
       .def("potential", &potential_of_frame, nb::arg("frame"),
-           "(vertices) float32: of one frame of all, counted from 0; NaN where it has no counterpart.")
+           "(vertices) float32: of one frame of all, counted from 0; NaN where unmatched.")
       .def("frame_columns", &frame_columns, "What each frame is, by columns.")
       .def("residue_columns", &ensemble_residue_columns, "The table of OUT.residues.csv by columns.")
       .def(

@@ -1,4 +1,4 @@
-// run.h: long computations on a thread of their own, so that Python goes on and Ctrl-C ends them.
+// run.h: long computations on a thread of their own, so that Python continues and Ctrl-C ends them.
 #pragma once
 
 #include <nanobind/nanobind.h>

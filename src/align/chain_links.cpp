@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLongestBond_A = 2;
 
-/// An atom at which a chain goes on.
+/// An atom at which a chain continues.
 struct ChainEnd {
   std::size_t residue;
   Vec3d place;

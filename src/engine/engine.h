@@ -235,7 +235,7 @@ class Engine {
   ///     -div(eps grad phi) + kappa_bar^2 lambda phi = 4 pi C rho,   kappa_bar^2 = 8 pi C c,   C as in pme_potential()
   ///
   /// rho in e/A^3, by cubic B-splines; c the number of ions of a kind in a cubic Angstrom of solvent; lambda 1 where
-  /// ions may be, else 0. With `nonlinear` sinh(phi) stands for phi in the ions' term. docs/potentials.md has the
+  /// ions may be, otherwise 0. With `nonlinear` sinh(phi) stands for phi in the ions' term. docs/potentials.md has the
   /// definitions. The map is not periodic; zero is the potential far away. The same bits for any order of the atoms and
   /// any number of threads. Time grows with the number of grid points.
   ///
@@ -245,7 +245,7 @@ class Engine {
   /// @param to_map    common frame -> the frame of `positions` and of the map
   /// @param start     where the iteration starts: a potential of this engine in the same frame, such as that of a
   /// trajectory's frame before, on any lattice; null starts from zero
-  /// @param report    receives how it was come by; may be null
+  /// @param report    receives the solver's report; may be null
   /// @throws InputError (parameters, lattice, no charges, charges without radius outside all atoms), MemoryError,
   ///         ConvergenceError (with the residual), Cancelled
   virtual GridPtr poisson_boltzmann(const std::vector<Vec3d>& positions, const std::vector<float>& radii,

@@ -45,7 +45,7 @@ EnsembleFile open_file(const std::string& path, const EnsemblePlan& plan, const 
     throw InputError(option("resume") + " and " + option("overwrite") + " exclude each other; leave one out");
   const bool exists = fs::exists(path);
   if (exists && !run.resume && !run.overwrite)
-    throw InputError("the ensemble file " + path + " exists; " + switched_on("resume") + " goes on with it, " +
+    throw InputError("the ensemble file " + path + " exists; " + switched_on("resume") + " continues it, " +
                      switched_on("overwrite") + " begins anew");
   if (exists && run.resume) {
     EnsembleFile file(path, true);
@@ -182,7 +182,7 @@ EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInpu
     } catch (const Cancelled&) {
       throw Error(ErrorClass::kCancelled, "cancelled after " + std::to_string(report.n_resumed + i) + " of " +
                                               std::to_string(report.n_frames) + " " + what + "s, which " + report.path +
-                                              " holds; " + switched_on("resume") + " goes on");
+                                              " holds; " + switched_on("resume") + " continues");
     } catch (const Error& error) {
       if (!run.skip_errors || error.error_class() == ErrorClass::kIo) {
         for (const EnsembleFile& file : all) {

@@ -21,7 +21,7 @@ struct EnsembleRun {
   std::string output;  ///< prefix of OUT.h5 and the results
   Shard shard;
   bool resume = false, overwrite = false;
-  bool skip_errors = false;  ///< a frame that cannot be mapped has no values, and the run goes on
+  bool skip_errors = false;  ///< a frame that cannot be mapped has no values, and the run continues
 };
 
 struct EnsembleReport {

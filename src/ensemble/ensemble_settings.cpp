@@ -42,7 +42,7 @@ std::vector<Rows::Row> run_rows() {
   const std::string group = "Run";
   return {Rows::boolean(
               "resume", group, [](auto& o) -> auto& { return o.run.resume; },
-              "Go on with OUT.h5 of an interrupted run; a complete one gets new statistics"),
+              "Continue OUT.h5 of an interrupted run; a complete one gets new statistics"),
           Rows::boolean(
               "overwrite", group, [](auto& o) -> auto& { return o.run.overwrite; }, "Replace OUT.h5 if it exists"),
           Rows::choice_of<bool>(
@@ -95,7 +95,7 @@ std::vector<Rows::Row> statistics_rows() {
       Rows::number(
           "most-missing", group, {0, true, "a number from 0 to 0.9", 0.9},
           [](auto& o) -> auto& { return o.statistics.most_missing; },
-          "A vertex without a counterpart in a larger share of a group's frames is not tested"),
+          "A vertex that is unmatched in a larger share of a group's frames is not tested"),
       Rows::count(
           "permutations", group, {20, true, "a whole number from 20 to 1000000", 1e6},
           [](auto& o) -> auto& { return o.statistics.test.max_permutations; },

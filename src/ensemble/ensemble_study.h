@@ -40,7 +40,7 @@ struct FieldAnswer {
   std::unique_ptr<EnsembleResult> result;
 };
 
-/// What came out. A shard has a report only.
+/// The result. A shard has a report only.
 struct EnsembleAnswer {
   std::vector<EnsembleReport> reports;  ///< of the run, and of each template that was checked
   std::string device;                   ///< in words; empty where nothing was mapped

@@ -64,7 +64,7 @@ MvsJson mesh(const ExportedResult& result) {
     tooltips[std::to_string(step)] = value_text(result.scale, value);
   }
   colours[std::to_string(kSteps + 1)] = hex_colour(kNoValueColour);
-  tooltips[std::to_string(kSteps + 1)] = "corrupt, or no counterpart on the target";
+  tooltips[std::to_string(kSteps + 1)] = "corrupt or unmatched";
   return node("primitive", {{"kind", "mesh"},
                             {"vertices", vertices},
                             {"indices", indices},

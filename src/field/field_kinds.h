@@ -11,8 +11,8 @@ namespace espdiff {
 /// All kinds, in the order of the list in src/CMakeLists.txt, from which the build makes this function.
 const std::vector<FieldKind>& field_kinds();
 
-/// Reads "NAME", "NAME=KIND", "NAME=KIND:ARGUMENT" or "KIND:ARGUMENT", several parted by `|`. The name of the first and
-/// the last is the kind's.
+/// Reads "NAME", "NAME=KIND", "NAME=KIND:ARGUMENT" or "KIND:ARGUMENT", several separated by `|`. The name of the first
+/// and the last is the kind's.
 /// @throws InputError (form, name, no such kind)
 std::vector<FieldRequest> parse_fields(const std::string& text);
 

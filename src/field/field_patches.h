@@ -13,7 +13,7 @@
 
 namespace espdiff {
 
-/// Reads "FIELD", "FIELD>T", "FIELD<T" or "FIELD>T<U", several parted by commas. Without a threshold the potential's
+/// Reads "FIELD", "FIELD>T", "FIELD<T" or "FIELD>T<U", several separated by commas. Without a threshold the potential's
 /// are 1 and -1 (kT/e).
 /// @throws InputError (form, numbers, a field other than the potential without a threshold)
 std::vector<PatchesRequest> parse_patches_of(const std::string& text);

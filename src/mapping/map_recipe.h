@@ -1,4 +1,4 @@
-// map_recipe.h: what a computed potential is made of and how it came out: what a result tells of it.
+// map_recipe.h: what a computed potential was made of, and what its computation reports.
 #pragma once
 
 #include <memory>

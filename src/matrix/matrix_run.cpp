@@ -83,7 +83,7 @@ void check_existing(const MatrixRun& run, bool has_parts, const PartsAndFields& 
   const std::string state = state_path(run.output, run.shard);
   if (!run.overwrite && !run.resume && fs::exists(state))
     throw InputError("the state file " + state + " of an earlier run exists; " + switched_on("resume") +
-                     " goes on with it, " + switched_on("overwrite") + " begins anew");
+                     " continues it, " + switched_on("overwrite") + " begins anew");
   // A shard's results come with the merge.
   if (run.shard.count == 1) check_results(run, run.overwrite || (run.resume && has_parts), compared);
 }
@@ -129,7 +129,7 @@ std::vector<MatrixCell> compute_and_keep(Engine& engine, const std::vector<Varia
   } catch (const Cancelled&) {
     throw Error(ErrorClass::kCancelled, "cancelled after " + std::to_string(report.n_resumed + n_done) + " of " +
                                             std::to_string(pairs.size()) + " pairs, which " + path + " holds; " +
-                                            switched_on("resume") + " goes on");
+                                            switched_on("resume") + " continues");
   }
   report.seconds = seconds_since(start);
   return cells;

@@ -56,7 +56,7 @@ std::string state_path(const std::string& output_prefix, const Shard& shard);
 void check_results(const MatrixRun& run, bool may_replace, const PartsAndFields& compared);
 
 /// Refuses a run that would replace results or state files, before the work.
-/// @param has_parts whether there is something that `resume` goes on with
+/// @param has_parts whether there is something that `resume` continues
 /// @throws InputError
 void check_existing(const MatrixRun& run, bool has_parts, const PartsAndFields& compared);
 

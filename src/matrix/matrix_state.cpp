@@ -174,7 +174,7 @@ MatrixState MatrixState::go_on(const std::string& path, const MatrixPlan& plan, 
   const std::string difference = plan_difference(content.plan, plan);
   if (!difference.empty())
     throw InputError(path + ": this state file is of another run: " + difference +
-                     "; run with the same input and settings to go on, or anew (" + switched_on("overwrite") + ")");
+                     "; run with the same input and settings to continue, or anew (" + switched_on("overwrite") + ")");
   std::error_code error;
   if (content.cut_off) std::filesystem::resize_file(path, content.n_good_bytes, error);
   if (error) throw IoError(path, "the incomplete last row cannot be taken away: " + system_message(error.value()));
@@ -190,7 +190,7 @@ void MatrixState::add(const MatrixCell& cell) {
   const int error = file_.write(line.data(), line.size());
   if (error != 0)
     throw IoError(path_, std::string("a row cannot be written: ") + system_message(error) +
-                             "; what is done is kept, and " + switched_on("resume") + " goes on");
+                             "; what is done is kept, and " + switched_on("resume") + " continues");
 }
 
 }  // namespace espdiff

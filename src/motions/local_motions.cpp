@@ -1,5 +1,5 @@
-// local_motions.cpp: fits from sums over residues, which a residue's neighbours add up, and screws that go on along the
-// chain.
+// local_motions.cpp: fits from sums over residues, which a residue's neighbours add up, and screws that continue along
+// the chain.
 #include "motions/local_motions.h"
 
 #include <Eigen/Geometry>
@@ -89,7 +89,7 @@ struct ResidueNeighbourhoods {
             static_cast<int>(std::floor(p.z() / kResidueReach_A))};
   }
 
-  /// Whether the chain goes on between two residues, one of which may be absent.
+  /// Whether the chain continues between two residues, one of which may be absent.
   bool goes_on(std::int32_t from, std::int32_t to) const {
     if (from < 0 || to < 0) return false;
     const auto a = static_cast<std::size_t>(from), b = static_cast<std::size_t>(to);

@@ -12,10 +12,9 @@ namespace espdiff {
 /// less the farther they are, so that motions change gradually along the chain: a loop or a tail turns about its joint
 /// and does not pass straight through the molecule.
 ///
-/// Rotations go on along a chain: of the two ways around to the same end, a residue takes the one closer to that of the
-/// residue before it. A rotation may therefore exceed 180 degrees.
-/// Chains follow bonds and residue numbers (chain_links()), not the order of the file. Serial; the cost is linear in
-/// the number of residues.
+/// Rotations continue along a chain: of the two ways around to the same end, a residue takes the one closer to that of
+/// the residue before it. A rotation may therefore exceed 180 degrees. Chains follow bonds and residue numbers
+/// (chain_links()), not the order of the file. Serial; the cost is linear in the number of residues.
 DomainMotions local_motions(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
                             const RigidTransform& from_source, const RigidTransform& from_target);
 

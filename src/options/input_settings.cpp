@@ -41,7 +41,7 @@ void add_structure_rows(std::vector<Setting>& all) {
   all.push_back(of_surface(Rows::text(
       "select", group, [](auto& o) -> auto& { return o.input.both.select; },
       "Atoms of both files that make surface and charges, in gemmi's syntax: //A is chain A, //A/10-20, (HEM), "
-      "//A;polymer; several, parted by blanks, add up. Default: all")));
+      "//A;polymer; several, separated by blanks, add up. Default: all")));
   all.push_back(Rows::text(
       "source-select", group, [](auto& o) -> auto& { return o.input.source.select; },
       "The same, of the source's file alone"));

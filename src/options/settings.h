@@ -19,8 +19,8 @@ struct Setting : OptionRow<CompareOptions> {
 
   bool of_surface = false;  ///< whether one molecule's surface depends on it
   std::string unit;         ///< "A", "K", "A2": ends the name of its key in OUT.json
-  bool is_list = false;     ///< a text of several values, parted by commas; on the command line it may be repeated
-  bool is_named = false;    ///< a list of NAME=TEXT, parted by `|`; in Tcl {NAME TEXT ...}
+  bool is_list = false;     ///< a text of several values, separated by commas; on the command line it may be repeated
+  bool is_named = false;    ///< a list of NAME=TEXT, separated by `|`; in Tcl {NAME TEXT ...}
   std::string file_key;     ///< its key in OUT.json where that is not made of its name
 
   /// Its key in OUT.json: "grid_spacing_A".

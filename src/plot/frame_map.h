@@ -23,7 +23,7 @@ struct FrameMap {
 std::pair<double, double> colour_range(const FrameMap& map);
 
 /// The gnuplot script: a column for each frame, rows from top to bottom, labels thinned out. Colours as in a heat map:
-/// red over grey to blue for both signs, else an even ramp in CIE lightness.
+/// red over grey to blue for both signs, otherwise an even ramp in CIE lightness.
 /// @throws InputError (no frames, no labels, inconsistent sizes, range, no value)
 std::string frame_map_script(const FrameMap& map, PictureFormat format);
 

@@ -15,8 +15,8 @@ namespace espdiff {
 
 /// Potentials of the frames of one molecule, and their average.
 ///
-/// The first frame sets the lattice. With a fixed cell and no superposition every frame is computed on it; else each
-/// frame is computed in its own cell and sampled on it by splines (PmeOptions::smooth_samples). Coulomb sums are
+/// The first frame sets the lattice. With a fixed cell and no superposition every frame is computed on it; otherwise
+/// each frame is computed in its own cell and sampled on it by splines (PmeOptions::smooth_samples). Coulomb sums are
 /// computed on it directly.
 class PotentialSeries {
  public:

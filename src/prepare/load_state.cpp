@@ -80,7 +80,7 @@ std::vector<LeftOutResidue> left_out_residues(const Molecule& whole, const std::
   return residues;
 }
 
-/// The states to give to the target's residues: those of the source's residues they pair with, else their own.
+/// The states to give to the target's residues: those of the source's residues they pair with, otherwise their own.
 std::vector<std::string> forced_states(const Molecule& source, const Molecule& raw, const Molecule& prepared) {
   const auto key = [](const Residue& r) { return std::tuple(r.chain, r.number, r.insertion_code); };
   const std::vector<std::string> of_source = protonation_states(source), own = protonation_states(prepared);
@@ -116,7 +116,7 @@ std::vector<std::string> forced_states(const Molecule& source, const Molecule& r
   throw InputError(place + ": " + lack + remedy);
 }
 
-/// What a side has of its own, else what both sides have.
+/// What a side has of its own, otherwise what both sides have.
 std::string option_of_side(StateRole role, const InputOptions& options, std::string SideInput::*member) {
   const std::string& own = (role == StateRole::kTarget ? options.target : options.source).*member;
   return role == StateRole::kOnly || own.empty() ? options.both.*member : own;

@@ -202,7 +202,7 @@ Json typed_value(const Setting& setting, const std::string& text) {
   return text;
 }
 
-/// What a computed map came out like is in the result.
+/// The result describes the computed map.
 Json input_files(const Provenance& provenance, const CompareResult& result) {
   Json json = Json::array();
   for (const InputFile& input : provenance.inputs) {

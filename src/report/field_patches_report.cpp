@@ -69,7 +69,7 @@ void visit_rows(const FieldPatches& of, const Molecule& source, const Molecule& 
   for (std::size_t i = 0; i < of.target.size(); ++i) visit(PatchRow{of, of.target[i], false, i + 1, target});
 }
 
-/// Numbers of a list are parted by blanks, residues by semicolons.
+/// Numbers of a list are separated by blanks, residues by semicolons.
 std::string csv_cell(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return "";

@@ -250,7 +250,7 @@ void check(const Scene& s) {
   require(s.around_A >= 0 && s.around_A <= 20, "atoms around the protein are shown within 0 to 20 Angstrom");
   require(s.n_field_lines >= 0 && s.n_field_lines <= 2000,
           std::to_string(s.n_field_lines) + " field lines cannot be drawn; use 0 to 2000");
-  require(s.isopotentials.size() <= 8, "at most 8 isopotential surfaces can be told apart");
+  require(s.isopotentials.size() <= 8, "at most 8 isopotential surfaces can be distinguished");
   for (const double value : s.isopotentials) require(std::isfinite(value), "an isopotential is not a number");
   for (const double offset : s.offsets_A) {
     require(offset > 0 && offset <= 10, "offset surfaces lie 0 to 10 Angstrom outside, not " + formatted(offset));

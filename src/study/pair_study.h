@@ -25,7 +25,7 @@ struct PairStudy {
   std::function<void(const std::vector<KeptFile>&)> check_kept{};
 };
 
-/// What came out, and all that its files are written of.
+/// The result, and all that its files are written of.
 struct PairAnswer {
   Molecule source_molecule, target_molecule;  ///< as they were compared
   std::vector<KeptFile> kept;                 ///< structures that no file holds as they were compared

@@ -1,4 +1,4 @@
-// residue_csv.cpp: writes the rows, and goes on with those of an interrupted run.
+// residue_csv.cpp: writes the rows, and continues those of an interrupted run.
 #include "trajectory/residue_csv.h"
 
 #include <algorithm>

@@ -36,7 +36,7 @@ class ResidueCsv {
   const std::string& path() const { return file_.path(); }
   /// As it was asked for; empty for the usual one.
   const std::string& quantity() const { return quantity_; }
-  /// Goes on with an existing file: keeps the rows of `frames`, which it must have, and drops one more, which a killed
+  /// Continues an existing file: keeps the rows of `frames`, which it must have, and drops one more, which a killed
   /// run wrote.
   /// @param frames that have numbers in the trajectory's file  @param fingerprint of its head
   /// @throws FormatError, InputError (the file is of another run or quantity; rows are missing)

@@ -183,7 +183,7 @@ void TrajectoryRun::note_inputs(const std::vector<InputFile>& inputs) {
 Error TrajectoryRun::cancelled() const {
   return {ErrorClass::kCancelled, "cancelled after " + std::to_string(file_.rows().size()) + " of " +
                                       std::to_string(steps_.size()) + " rows; " + switched_on("resume") +
-                                      " goes on with " + file_.path()};
+                                      " continues " + file_.path()};
 }
 
 const SeriesRow* TrajectoryRun::step(Engine& engine, const std::function<StepInput()>& read, const Progress& progress) {

@@ -31,7 +31,7 @@ struct TrajectoryPlan {
   std::string reference;  ///< the one source, as the rows name it
   CompareOptions options;
   StartFrom start = StartFrom::kPrevious;
-  bool skip_errors = false;   ///< a frame that fails becomes a row with the error, and the run goes on
+  bool skip_errors = false;   ///< a frame that fails becomes a row with the error, and the run continues
   PartsAndFields compared{};  ///< region and patches of the sources, and fields, whose numbers are in further columns
 };
 
@@ -97,7 +97,7 @@ class TrajectoryRun {
   /// Adds a row with the error of a frame that cannot be read.
   /// @throws Error the same with the frame's number in front, unless errors are skipped
   const SeriesRow* skip(const Error& why);
-  /// The error of a cancelled run: the number of rows, and how to go on.
+  /// The error of a cancelled run: the number of rows, and how to continue.
   Error cancelled() const;
 
  private:

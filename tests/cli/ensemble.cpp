@@ -260,7 +260,7 @@ TEST_CASE("a patch that was chosen beforehand has its means, its difference and 
   CHECK(site.at("p").get<double>() < 0.001);
   CHECK(site.at("high").get<double>() < 0);
   CHECK(json["fixed_patches"]["far-end"].at("area_A2").get<double>() > 100);
-  // What is measured changes no frame: the same file goes on.
+  // What is measured changes no frame: the same file continues.
   CHECK(in.ensemble(in.groups + " -q -o out --resume --patch other=//A/3").status == 0);
   // The file knows the template's residues.
   REQUIRE(in.ensemble("--from out.h5 -q -o again --patch site=//A/8").status == 0);
@@ -829,7 +829,7 @@ TEST_CASE("a file of other settings, of another template, or in the way is refus
   REQUIRE(in.ensemble(in.groups + " -q -o out --template 0").status == 0);
   const std::string bytes = read_file(in.folder.file("out.h5"));
   CHECK(in.ensemble(in.groups + " -q -o out --template 0").err ==
-        "espdiff: the ensemble file out.h5 exists; --resume goes on with it, --overwrite begins anew\n");
+        "espdiff: the ensemble file out.h5 exists; --resume continues it, --overwrite begins anew\n");
   CHECK(in.ensemble(in.groups + " -q -o out --template 1 --resume").err ==
         "espdiff: out.h5 is of another run: the template is wild, replicate w1, frame 0 there and wild, replicate w1, "
         "frame 1 here; --overwrite begins anew\n");

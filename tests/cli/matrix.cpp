@@ -55,7 +55,7 @@ TEST_CASE("any number of threads gives the same bytes") {
   CHECK(read_file(files.out("one.json")) == read_file(files.out("three.json")));
 }
 
-TEST_CASE("a run that was killed goes on and writes the same bytes") {
+TEST_CASE("a run that was killed continues and writes the same bytes") {
   const MatrixFiles files;
   REQUIRE(files.matrix("whole", "-q").status == 0);
   // Killed as soon as the state file has a few rows: by a watcher, since the time that takes is not known.
@@ -70,7 +70,7 @@ TEST_CASE("a run that was killed goes on and writes the same bytes") {
   const std::size_t n_rows = n_lines(read_file(state)) - 2;
   const Outcome again = files.matrix("killed");
   CHECK(again.status == 2);
-  CHECK(contains(again.err, "--resume goes on with it"));
+  CHECK(contains(again.err, "--resume continues it"));
   const Outcome resumed = files.matrix("killed", "--resume");
   REQUIRE_MESSAGE(resumed.status == 0, resumed.err);
   CHECK(contains(resumed.out, std::to_string(n_rows) + " were there already"));

@@ -139,7 +139,7 @@ TEST_CASE("trajectory: maps of files, resuming, replacing") {
   folder.write("a.csv", whole.substr(0, end + 1) + "2,file");
   const Outcome exists = run_espdiff(start);
   CHECK(exists.status == 2);
-  CHECK(contains(exists.err, "--resume goes on with it, --overwrite replaces it"));
+  CHECK(contains(exists.err, "--resume continues it, --overwrite replaces it"));
   CHECK(contains(run_espdiff(start + "--resume --mu 0.6").err,
                  "was made with settings 'method deform', not with 'method deform mu 0.6'"));
   const Outcome resumed = run_espdiff(start + "--resume");
@@ -154,7 +154,7 @@ TEST_CASE("trajectory: maps of files, resuming, replacing") {
 
 namespace {
 
-/// A run of its own, which goes on while the test looks at its file.
+/// A run of its own, which continues while the test looks at its file.
 pid_t start_run(const std::string& arguments) {
   const pid_t child = ::fork();
   if (child != 0) return child;
@@ -175,7 +175,7 @@ bool gets_row(const std::string& csv, pid_t run) {
 
 }  // namespace
 
-TEST_CASE("trajectory: two processes on one file; a killed run goes on to the same bytes and leaves nothing") {
+TEST_CASE("trajectory: two processes on one file; a killed run continues to the same bytes and leaves nothing") {
   const ScratchFolder folder;
   const std::string source = folder.write("a.pqr", pqr()), frames = folder.write("f.pdb", pdb_models(0, 6)),
                     csv = folder.file("a.csv"), whole = folder.file("whole.csv");
@@ -260,7 +260,7 @@ TEST_CASE("trajectory against trajectory: frame i of one molecule against frame 
         doctest::Approx(pair["mean_abs_difference"].get<double>()).epsilon(0.02));
   CHECK(column(folder.file("r.csv"), "frame") == std::vector<std::string>{"0", "1", "2"});
   CHECK_FALSE(column(folder.file("r.csv"), "A:ALA 1")[2].empty());
-  CHECK(run_espdiff(call).err.find(": the file exists; --resume goes on with it") != std::string::npos);
+  CHECK(run_espdiff(call).err.find(": the file exists; --resume continues it") != std::string::npos);
   CHECK(run_espdiff(call + " --resume").status == 0);
 
   const std::string four = folder.write("four.pdb", pdb_models(0, 4));

@@ -16,7 +16,7 @@ void note_load(const char* place, std::size_t n_bytes, bool strong);
 /// value: the bytes that are stored; null where they are not known.
 void note_store(const char* place, std::size_t n_bytes, const void* value, bool strong);
 
-/// A launch begins; threads are told apart by their number in the grid.
+/// A launch begins; threads are distinguished by their number in the grid.
 void begin_launch(bool look_for_races);
 void begin_thread(std::uint64_t number);
 

@@ -16,7 +16,7 @@
 #error "the fibers' switch is written for x86-64"
 #endif
 
-// Keeps what a function must keep on the stack, and goes on where another fiber did the same.
+// Keeps what a function must keep on the stack, and continues where another fiber did the same.
 extern "C" void cuda_emulator_switch(void** stack_before, void* stack);
 asm(R"(
 .text

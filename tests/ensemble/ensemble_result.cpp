@@ -296,7 +296,7 @@ TEST_CASE("vertices without a counterpart in too many frames of a group are left
   CHECK(std::isnan(result.test.p_tfce[0]));
   CHECK(result.groups[1].present[0] == doctest::Approx(0.75));
   REQUIRE(result.warnings.size() == 1);
-  CHECK(result.warnings[0].find("% of the template's area has no counterpart in more than 20 %") != std::string::npos);
+  CHECK(result.warnings[0].find("% of the template's area is unmatched in more than 20 %") != std::string::npos);
   EnsembleOptions lenient;
   lenient.most_missing = 0.3;
   CHECK(analyse_ensemble(file, lenient).tested[0] == 1);

@@ -243,7 +243,7 @@ TEST_CASE("interrupted, resumed and in parts: the same bytes") {
     const std::string message = message_of([&] { compute(run, *progress); });
     INFO(message);
     CHECK(contains(message, "cancelled after "));
-    CHECK(contains(message, "resume goes on"));
+    CHECK(contains(message, "resume continues"));
     run.resume = true;
   }
   const MatrixReport report = compute(run, {});

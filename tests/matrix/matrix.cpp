@@ -192,7 +192,7 @@ TEST_CASE("shapes alone: metrics of potentials have no values, and variants clus
   CHECK(json["clustering"]["metric"] == "mean_displacement_A");
 }
 
-TEST_CASE("an interrupted run goes on and writes the same bytes; so do parts that are merged") {
+TEST_CASE("an interrupted run continues and writes the same bytes; so do parts that are merged") {
   const ScratchFolder folder;
   const auto engine = cpu_engine();
   const std::vector<Variant> variants = made_variants(4);
@@ -206,7 +206,7 @@ TEST_CASE("an interrupted run goes on and writes the same bytes; so do parts tha
       message_of([&] { run_matrix(*engine, variants, matrix_options(), run, *stopper.progress); });
   CHECK(contains(message, "cancelled after 5 of 12 pairs"));
   CHECK_FALSE(std::filesystem::exists(folder.file("stopped.csv")));
-  CHECK(contains(message_of([&] { run_matrix(*engine, variants, matrix_options(), run, {}); }), "resume goes on"));
+  CHECK(contains(message_of([&] { run_matrix(*engine, variants, matrix_options(), run, {}); }), "resume continues"));
   run.resume = true;
   const MatrixReport report = run_matrix(*engine, variants, matrix_options(), run, {});
   CHECK(report.n_resumed == 5);

@@ -62,7 +62,7 @@ std::size_t line_start(const std::string& text, int line) {
 
 TEST_SUITE_BEGIN("matrix state");
 
-TEST_CASE("numbers come back bit by bit, and a run goes on behind the last cell") {
+TEST_CASE("numbers come back bit by bit, and a run continues behind the last cell") {
   const ScratchFolder folder;
   const std::string path = written_state(folder);
   MatrixStateContent content;

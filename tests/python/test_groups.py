@@ -137,7 +137,7 @@ def test_mda_ensemble_in_processes(whole, request, tmp_path):
         ({"wild": [5]}, {}, r"groups\['wild'\]\[0\]: a int is no replicate; give a path or an AtomGroup"),
         (GROUPS, {"alpha": 0.9}, "alpha.*'0.9' is not a number from 1e-06 to 0.5"),
         (GROUPS, {"control": "no"}, "control.*'no' is not tfce or max-t"),
-        (GROUPS, {"shard": "1/2"}, "output: a part of an ensemble, or one to go on with, needs files"),
+        (GROUPS, {"shard": "1/2"}, "output: a part of an ensemble, or one to continue, needs files"),
         (GROUPS, {"charges": {"other": CHARGES["wild"]}}, "is not GROUP=FILE with one of the groups, such as wild"),
         (GROUPS, {"grid_spcing": 1}, "grid"),
         ({"wild": GROUPS["wild"][:1] * 2}, {"charges": {"wild": CHARGES["wild"]}}, "two replicates named ensembles/trpcage_wild_1; name them apart"),

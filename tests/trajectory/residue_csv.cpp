@@ -63,7 +63,7 @@ TEST_CASE("residues of a trajectory: a row a frame, empty where a residue has no
   }
   CHECK(read_file(path) == std::string(kResidueHead) + "3,0.5,,2.5\n5,1.5,,3.5\n");
   CHECK(message_of([&] { ResidueCsv(path, "", ExistingFile::kRefuse); }) ==
-        path + ": the file exists; resume goes on with it, overwrite replaces it");
+        path + ": the file exists; resume continues it, overwrite replaces it");
   ResidueCsv other(folder.file("s.csv"), "mean_displacement_A", ExistingFile::kRefuse);
   add(other, 0, 0.5);
   CHECK(read_file(folder.file("s.csv")).find("\n0,0.25,0.25,0.25\n") != std::string::npos);

@@ -32,7 +32,7 @@ std::string write_rows(const std::string& path, int n) {
 
 TEST_SUITE_BEGIN("trajectory");
 
-TEST_CASE("a file that was cut off anywhere goes on to the same bytes") {
+TEST_CASE("a file that was cut off anywhere continues to the same bytes") {
   const ScratchFolder folder;
   const std::string whole = write_rows(folder.file("whole.csv"), 3), path = folder.file("part.csv");
   CHECK(whole.rfind("# espdiff: 1\n# frames: all\n# settings:", 0) == 0);
@@ -159,7 +159,7 @@ TEST_CASE("files of something else are refused and left as they are") {
     return message_of([&] { SeriesCsv(path, head, ExistingFile::kResume); });
   };
   CHECK(message_of([&] { SeriesCsv(path, kSeriesHead, ExistingFile::kRefuse); }) ==
-        path + ": the file exists; resume goes on with it, overwrite replaces it");
+        path + ": the file exists; resume continues it, overwrite replaces it");
   CHECK(refusal({{"settings", "mu 0.5"}}) ==
         path + ": was made with settings '', not with 'mu 0.5'; overwrite begins anew");
   for (const char* other : {"a,b\n1,2\n", "no table", "# a comment\n", "frame,reference_frame,time_ms\n"}) {

@@ -90,7 +90,7 @@ struct Runner {
       if (stage.rfind("frame " + std::to_string(last) + ":", 0) == 0) asked->request_cancel();
     });
     asked = &progress;
-    const std::string expected = "cancelled after " + std::to_string(last) + " of 5 rows; resume goes on with " + path;
+    const std::string expected = "cancelled after " + std::to_string(last) + " of 5 rows; resume continues " + path;
     CHECK(message_of([&] { (*this)(plan, path, ExistingFile::kRefuse, progress); }) == expected);
   }
 };
@@ -155,7 +155,7 @@ TEST_CASE("a row has what the preparation of its states left doubtful among its 
   CHECK(contains(file.rows()[0]["warnings"], "the source lacks residues between GLY 10 and ALA 15 of chain A"));
 }
 
-TEST_CASE("a run that broke off anywhere goes on with the same rows") {
+TEST_CASE("a run that broke off anywhere continues the same rows") {
   const Motion motion;
   for (const Method method : {Method::kMorph, Method::kDeform}) {
     CAPTURE(to_string(method));

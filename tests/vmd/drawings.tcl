@@ -78,7 +78,7 @@ test "the legend of coloured atoms stands above or below that of the surface" {
     espdiff undraw
 }
 
-test "the molecules of a drawing can be told apart, and are hidden and shown together" {
+test "the molecules of a drawing can be distinguished, and are hidden and shown together" {
     set drawn [espdiff draw $comparison]
     set names [lmap mol $drawn { lindex [molinfo $mol get name] 0 }]
     check "short: $names" {[regexp {^espdiff \d+: difference$} [lindex $names 0]]}

@@ -50,7 +50,7 @@ test "break from -progress cancels, and says so" {
         {ESPDIFF CANCELLED} "cancelled"
 }
 
-test "in the background VMD goes on, and the command is called at the end" {
+test "in the background VMD continues, and the command is called at the end" {
     set ::ticks 0
     proc tick {} { incr ::ticks; after 10 tick }
     tick

@@ -6,7 +6,8 @@
 
 namespace espdiff {
 
-/// Radii of the surface. kAuto: those of the files where all states have them from one force field, else by element.
+/// Radii of the surface. kAuto: those of the files where all states have them from one force field, otherwise by
+/// element.
 enum class RadiiChoice { kAuto, kFile, kElement };
 
 /// What may differ between source and target.

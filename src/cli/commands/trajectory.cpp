@@ -61,9 +61,9 @@ void add_run_options(CLI::App& p, TrajectoryArguments& a) {
                "mean_displacement_A)")
       ->check(CLI::IsMember(residue_quantities()))
       ->group(group);
-  p.add_flag("--resume", a.resume, "Go on where an interrupted run left the file")->group(group);
+  p.add_flag("--resume", a.resume, "Continue where an interrupted run left the file")->group(group);
   p.add_flag("--overwrite", a.overwrite, "Replace the file if it exists")->group(group);
-  p.add_option("--on-error", a.on_error, "skip writes a row with the error in its column `error`, and goes on")
+  p.add_option("--on-error", a.on_error, "skip writes a row with the error in its column `error`, and continues")
       ->check(CLI::IsMember({"stop", "skip"}))
       ->capture_default_str()
       ->group(group);

@@ -31,7 +31,7 @@ struct ReplicateRequest {
 
 /// Replicates of groups as the command line has them, NAME FILE...: each file is a replicate. Where files after the
 /// first are trajectories, the first one is the structure or topology of their atoms, and no replicate. Files of one
-/// name in different folders are told apart by their folders.
+/// name in different folders are distinguished by their folders.
 /// @throws InputError (no group, a group without a name or without files)
 std::vector<ReplicateRequest> replicates_of_groups(const std::vector<std::vector<std::string>>& groups);
 

@@ -374,10 +374,10 @@ struct Analysis {
     }
     const double left_out = 1 - result.tested_area_A2 / result.area_A2;
     if (left_out > 0.05) {
-      result.warnings.push_back(formatted(
-          "%.1f %% of the template's area has no counterpart in more than %.0f %% of a group's frames, and was "
-          "not tested",
-          100 * left_out, 100 * result.options.most_missing));
+      result.warnings.push_back(
+          formatted("%.1f %% of the template's area is unmatched in more than %.0f %% of a group's frames, and was "
+                    "not tested",
+                    100 * left_out, 100 * result.options.most_missing));
     }
   }
 };

@@ -40,7 +40,7 @@ struct FixedPatch {
 /// Options of the statistics; they do not change the file's values.
 struct EnsembleOptions {
   double alpha = 0.05;        ///< of patches, and 1 - confidence of intervals
-  double most_missing = 0.2;  ///< a vertex without a counterpart in a larger share of a group's frames is left out
+  double most_missing = 0.2;  ///< a vertex that is unmatched in a larger share of a group's frames is left out
   ErrorControl control = ErrorControl::kTfce;  ///< the family-wise p of patches
   Equilibration equilibration;
   SurfaceTestOptions test;

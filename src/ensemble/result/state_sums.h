@@ -53,7 +53,7 @@ class StateBlock {
   std::size_t width() const { return width_; }
   /// [column of the block]; 0 where the frame has no value.
   const double* values(std::size_t frame) const { return &values_[frame * width_]; }
-  /// [column of the block] 1 where the frame has a value, else 0.
+  /// [column of the block] 1 where the frame has a value, otherwise 0.
   const double* known(std::size_t frame) const { return &known_[frame * width_]; }
   /// Whether every frame has a value.
   bool is_complete(std::size_t column) const;

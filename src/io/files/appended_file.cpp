@@ -13,7 +13,7 @@ namespace espdiff {
 
 AppendedFile::AppendedFile(std::string path, ExistingFile existing) : path_(std::move(path)) {
   if (has_content() && existing == ExistingFile::kRefuse)
-    throw IoError(path_, "the file exists; " + switched_on("resume") + " goes on with it, " + switched_on("overwrite") +
+    throw IoError(path_, "the file exists; " + switched_on("resume") + " continues it, " + switched_on("overwrite") +
                              " replaces it");
   { const AtomicFile probe(path_); }  // fails now, not after the first frame
   open_and_lock();
@@ -58,7 +58,7 @@ void AppendedFile::append(const std::string& text) {
   const int error = file_.write(text.data(), text.size());
   if (error != 0)
     throw IoError(path_, std::string("a row cannot be written: ") + system_message(error) + "; " +
-                             switched_on("resume") + " goes on after the last complete row");
+                             switched_on("resume") + " continues after the last complete row");
 }
 
 }  // namespace espdiff

@@ -1,4 +1,4 @@
-// appended_file.h: a text file that grows by whole lines, under a lock; an interrupted run can go on with it.
+// appended_file.h: a text file that grows by whole lines, under a lock; an interrupted run can continue it.
 #pragma once
 
 #include <cstddef>

@@ -22,8 +22,8 @@ struct CsvTable {
   double number(std::size_t row, std::size_t column) const;
 };
 
-/// Reads a file. Lines that begin with `#` before a row and empty lines are left out; fields are parted by commas, or
-/// by tabs where the row of names has one; blanks around unquoted fields do not count; a field in quotes may hold
+/// Reads a file. Lines that begin with `#` before a row and empty lines are left out; fields are separated by commas,
+/// or by tabs where the row of names has one; blanks around unquoted fields do not count; a field in quotes may hold
 /// commas, line ends and doubled quotes; an apostrophe that write_csv_row() put in front is taken away. A byte-order
 /// mark is skipped.
 /// @throws IoError (missing, unreadable), FormatError (no columns, a name twice, rows of another length, a quote that

@@ -51,7 +51,7 @@ ChildProcess start(const ProgramCall& call, const ChildFiles& files) {
   return child;
 }
 
-/// Waits, and kills the program with its children if it may not go on.
+/// Waits, and kills the program with its children if it may not continue.
 int wait_with_checks(const ProgramCall& call, const ChildProcess& child, const ChildFiles& files) {
   const auto begun = std::chrono::steady_clock::now();
   int status = 0;

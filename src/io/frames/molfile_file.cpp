@@ -59,7 +59,7 @@ MolfileFrames::MolfileFrames(std::string path, const MolfileReader& reader, std:
     throw InputError(by_reader(path_, reader_) + " reads no coordinates; give a trajectory or a structure");
   open();
   try {
-    // Every frame is read: asked to skip one, some readers go on behind the end of the file.
+    // Every frame is read: asked to skip one, some readers continue behind the end of the file.
     while (next()) {
       ++n_frames_;
       progress.check_cancelled();

@@ -45,7 +45,7 @@ class MolfileFrames : public CoordinateFile {
 };
 
 /// The atoms of a topology (PSF, prmtop, GRO, ...), all at the origin: names, residues, charges and radii where the
-/// file has them, else radii by element.
+/// file has them, otherwise radii by element.
 /// @throws IoError (missing), FormatError (it cannot be read), InputError (the reader knows no atoms)
 Molecule read_molfile_atoms(const std::string& path, const MolfileReader& reader);
 

@@ -19,8 +19,8 @@ struct MolfileReader {
   const molfile::FileFunctions<18>* functions = nullptr;
 };
 
-/// The folder of VMD's molfile plugins: the given one, else that of $VMDDIR, of the program `vmd` on PATH, or of VMD's
-/// usual places; empty if there is none.
+/// The folder of VMD's molfile plugins: the given one, otherwise that of $VMDDIR, of the program `vmd` on PATH, or of
+/// VMD's usual places; empty if there is none.
 std::string find_molfile_folder(const std::string& given = {});
 
 /// The readers of structures and coordinates in a folder; loaded once for each folder.

@@ -51,7 +51,7 @@ class DxReader {
     return false;
   }
 
-  /// The words of an object, which may go on on the next lines.
+  /// The words of an object, which may continue on the next lines.
   Words object_words() {
     constexpr int kMostLines = 20;
     Words words = split_words(cursor_.rest_of_line());

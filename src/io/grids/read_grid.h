@@ -1,4 +1,4 @@
-// read_grid.h: scalar grids from OpenDX, VTI and Gaussian cube files, told apart by content.
+// read_grid.h: scalar grids from OpenDX, VTI and Gaussian cube files, distinguished by content.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ struct GridOptions {
 /// Reads a grid: OpenDX as APBS, PMEPot and VMD write it (any axes; gzip too), VTI (ascii, binary, appended; any
 /// number type; gzip too), Gaussian cube (Bohr or, with negative counts, Angstrom; converted to Angstrom; first volume
 /// of several). The format is found from the content. Values are re-ordered to x fastest. The unit is taken from the
-/// file where it says one ("POTENTIAL (kT/e)"), else unknown. A header that promises more than the file can hold is
-/// refused before anything is allocated.
+/// file where it says one ("POTENTIAL (kT/e)"), otherwise unknown. A header that promises more than the file can hold
+/// is refused before anything is allocated.
 /// @throws IoError (missing, directory, unreadable)
 /// @throws FormatError (with line: fewer or more values than promised, not finite, counts below 2, degenerate axes)
 /// @throws InputError (format not read, array missing, VTI in a build without VTK, with remedy), MemoryError

@@ -115,7 +115,7 @@ const XmlElement* find_array(const std::vector<const XmlElement*>& arrays, const
   return found != arrays.end() ? *found : nullptr;
 }
 
-/// The array asked for, else the one that is marked as scalars, else the only one.
+/// The array asked for, otherwise the one that is marked as scalars, otherwise the only one.
 const XmlElement& choose_array(const VtkXmlFile& file, const XmlElement& piece, const std::string& wanted) {
   const std::vector<const XmlElement*> arrays = point_arrays(piece);
   if (arrays.empty()) {

@@ -16,7 +16,7 @@ constexpr const char* kImageData = "ImageData";
 /// Reads one point array of a VTI file: ascii, inline base64 or appended (raw, base64), compressed by zlib or not, any
 /// number type and byte order, one piece or several that cover the whole extent. The direction matrix turns the axes;
 /// the extent need not start at 0. Lengths are taken as Angstrom. The unit is that of the field array "unit", which
-/// espdiff writes, else unknown. WholeExtent, Origin and Spacing must be there: a default would be a guess.
+/// espdiff writes, otherwise unknown. WholeExtent, Origin and Spacing must be there: a default would be a guess.
 /// @throws FormatError (damaged or truncated, sizes that do not agree, values that are not finite),
 ///         InputError (no such array, several to choose from, vectors, a compressor other than zlib), MemoryError
 Grid read_vti(const VtkXmlFile& file, const GridOptions& options);

@@ -85,7 +85,7 @@ void write_dx_content(std::ostream& out, const Grid& grid) {
          "component \"data\" value 3\n";
 }
 
-/// Numbers of full precision, parted by blanks.
+/// Numbers of full precision, separated by blanks.
 std::string vti_numbers(std::initializer_list<double> values) {
   constexpr int kDigits = 17;
   std::string text;

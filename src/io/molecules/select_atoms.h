@@ -9,8 +9,8 @@
 
 namespace espdiff {
 
-/// Evaluates a selection such as "//A", "//A/10-20,26", "(AP5,CL)", "//A;polymer" or "//B/*/CA[C]"; several, parted by
-/// blanks, add up. Chains, numbers, insertion codes and names are those of the molecule. `;polymer`, `;ligand` and
+/// Evaluates a selection such as "//A", "//A/10-20,26", "(AP5,CL)", "//A;polymer" or "//B/*/CA[C]"; several, separated
+/// by blanks, add up. Chains, numbers, insertion codes and names are those of the molecule. `;polymer`, `;ligand` and
 /// `;water` tell amino acids and nucleotides (by their backbone atoms), everything else, and water apart. Models,
 /// alternate locations, occupancies and B factors are not known to a molecule and are refused.
 /// @returns [atom]

@@ -94,7 +94,7 @@ SplitSelection split_numbers(const std::string& selection, const std::string& op
     if (!read_item(text, item))
       throw InputError(
           option(option_name) + ": " + in_quotes(text) + " in " + in_quotes(selection) +
-          " is not a residue's number or a range; give such as 26, 10-20, -3--1 or 10.A, or several parted by "
+          " is not a residue's number or a range; give such as 26, 10-20, -3--1 or 10.A, or several separated by "
           "commas without blanks: 26,27,30-40");
     split.numbers.push_back(item);
     if (comma == numbers.size()) return split;

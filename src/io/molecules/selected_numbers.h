@@ -23,7 +23,7 @@ struct SplitSelection {
 };
 
 /// Takes the numbers out of "//A/26,27,30-40/CA": 26; 10-20; 10- (and all above), *-10 (and all below); -3 and -3--1
-/// (below zero); 10.A, 10A (with an insertion code), 10.* (with any or none); several of them, parted by commas.
+/// (below zero); 10.A, 10A (with an insertion code), 10.* (with any or none); several of them, separated by commas.
 /// @throws InputError with the option's name and the part that cannot be read
 SplitSelection split_numbers(const std::string& selection, const std::string& option_name);
 

@@ -63,7 +63,7 @@ std::string pdb_columns(const Molecule& molecule, std::size_t i) {
                    chain.c_str(), static_cast<int>(residue.number), residue.insertion_code, p.x, p.y, p.z);
 }
 
-/// The same parted by single blanks, for names and numbers of any length.
+/// The same separated by single blanks, for names and numbers of any length.
 std::string free_fields(const Molecule& molecule, std::size_t i) {
   const Atom& atom = molecule.atoms[i];
   const Residue& residue = molecule.residues[static_cast<std::size_t>(atom.residue)];

@@ -81,7 +81,7 @@ class ModelSplitter {
     for (const AtomModel& model : models_) {
       if (model.size() == models_.front().size()) continue;
       throw FormatError(path_, split_by_end_,
-                        "atoms go on after END, and the parts differ (" + std::to_string(models_.front().size()) +
+                        "atoms continue after END, and the parts differ (" + std::to_string(models_.front().size()) +
                             " and " + std::to_string(model.size()) +
                             " atoms); delete END if they are one molecule, or put them between MODEL and ENDMDL");
     }

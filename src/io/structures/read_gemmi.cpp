@@ -207,7 +207,7 @@ gemmi::cif::Document parse_atom_site(const std::string& path, const std::string&
   return document;
 }
 
-/// Line of a table's row, where the file has one row a line and no comments between (all known writers); else the
+/// Line of a table's row, where the file has one row a line and no comments between (all known writers); otherwise the
 /// table's.
 long row_line(const std::string& text, const gemmi::cif::Item& item, std::size_t row, const std::string& value) {
   const long first = item.line_number > 0 ? item.line_number : 0;

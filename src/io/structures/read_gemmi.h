@@ -13,7 +13,8 @@ namespace espdiff {
 /// Of an atom with alternate locations one is kept: that of the location with the highest mean occupancy in the residue
 /// (the first on ties), or, where the atom lacks that, its own of highest occupancy. An atom given twice at the same
 /// place is kept once. A letter in column 21 is the fourth of the residue's name (TIP3, as CHARMM and VMD write it),
-/// behind a standard residue the first of a chain name of two. Elements: columns 77 and 78, else guessed from the name.
+/// behind a standard residue the first of a chain name of two. Elements: columns 77 and 78, otherwise guessed from the
+/// name.
 /// @param remarks the file's REMARK 350 lines, which describe its assemblies
 /// @throws FormatError (with line), InputError (no atoms left, no such assembly)
 Molecule read_pdb(const std::string& path, const AtomModel& model, const std::string& remarks,

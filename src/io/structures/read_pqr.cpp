@@ -150,7 +150,7 @@ PqrAtom read_atom(const std::string& path, const AtomLine& line) {
       path, line.number,
       "this PQR line cannot be read: by blanks, " + by_words.problem + "; by columns, " + by_columns.problem +
           "; expected: record, serial, atom, residue, [chain,] number, x, y, z, charge, radius, finite and "
-          "parted by blanks");
+          "separated by blanks");
 }
 
 /// Digits behind the point of the line's last word.

@@ -1,4 +1,4 @@
-// read_structure.h: molecules from PQR, PDB and mmCIF files, told apart by content.
+// read_structure.h: molecules from PQR, PDB and mmCIF files, distinguished by content.
 #pragma once
 
 #include <string>
@@ -10,8 +10,9 @@ namespace espdiff {
 
 /// Reads one conformation. The format is found from the content: a PQR, PDB or mmCIF under any name, also packed by
 /// gzip, is read as what it is. Atoms keep file order. Alternate locations: the one of highest mean occupancy in the
-/// residue (the first on ties). Models: MODEL records; without them (PDB, PQR) atoms that go on after END are the next
-/// model. Radii: the file's (PQR), else Bondi's by element. Charges: the file's, else none. Unit: elementary charge.
+/// residue (the first on ties). Models: MODEL records; without them (PDB, PQR) atoms that continue after END are the
+/// next model. Radii: the file's (PQR), otherwise Bondi's by element. Charges: the file's, otherwise none. Unit:
+/// elementary charge.
 /// @throws IoError (missing, directory, unreadable)
 /// @throws FormatError (with line: bad number, NaN, short record, negative radius)
 /// @throws InputError (no atoms, model out of range, format not read or not supported by this build, with remedy)

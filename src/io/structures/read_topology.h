@@ -19,7 +19,8 @@ struct Topology {
 /// Whether a file's content is that of a PSF or a prmtop. @throws IoError
 bool is_topology(const std::string& path);
 
-/// Reads a PSF (also EXT, XPLOR, NAMD) or a prmtop, told apart by content. Charges of a prmtop are divided by 18.2223.
+/// Reads a PSF (also EXT, XPLOR, NAMD) or a prmtop, distinguished by content. Charges of a prmtop are divided
+/// by 18.2223.
 /// @throws IoError, InputError (neither of them), FormatError (with line: sections missing, cut or malformed)
 Topology read_topology(const std::string& path);
 

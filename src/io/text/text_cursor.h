@@ -23,7 +23,8 @@ std::string_view trimmed(std::string_view text);
 /// `text` in ASCII lower case.
 std::string lower_case(std::string_view text);
 
-/// Words of a line, parted by blanks; the first 10,000 of a line that has more, so that a hostile one takes no memory.
+/// Words of a line, separated by blanks; the first 10,000 of a line that has more, so that a hostile one takes no
+/// memory.
 std::vector<std::string_view> split_words(std::string_view line);
 
 /// For messages: 'text', on one line, at most 40 characters of it, all but printable ASCII as '?'.

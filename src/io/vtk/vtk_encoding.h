@@ -10,7 +10,7 @@ namespace espdiff {
 /// How the numbers of a file are stored; what its head says.
 struct VtkEncoding {
   bool big_endian = false;
-  bool long_headers = false;  ///< lengths have 64 bits, else 32
+  bool long_headers = false;  ///< lengths have 64 bits, otherwise 32
   bool compressed = false;    ///< by zlib, in blocks
 };
 
@@ -25,8 +25,8 @@ std::uint64_t load_unsigned(const char* bytes, std::size_t n_bytes, bool big_end
 
 /// Takes the bytes of one array from the start of `encoded`. `n_bytes` is how many it must have; the lengths in the
 /// file must agree, which is checked before memory is taken. Returns the bytes: a part of `encoded` where they lie
-/// there as they are, else of `storage`, which is overwritten. `n_read` is set to the characters of `encoded` that were
-/// used. `array` begins the messages: "PATH:LINE: array 'phi'".
+/// there as they are, otherwise of `storage`, which is overwritten. `n_read` is set to the characters of `encoded` that
+/// were used. `array` begins the messages: "PATH:LINE: array 'phi'".
 /// @throws FormatError via `path` and `line` (lengths that differ, characters that are not base64, blocks that cannot
 ///         be unpacked), MemoryError
 std::string_view decode_array(std::string_view encoded, bool is_base64, const VtkEncoding& encoding,

@@ -157,7 +157,7 @@ std::vector<double> VtkXmlFile::numbers(const XmlElement& element, const char* n
   }
   if (values.size() == n && split_words(text).size() == n) return values;
   fail(element, std::string(name) + " is " + in_quotes(text) + ", but " + std::to_string(n) +
-                    " finite numbers, parted by blanks, were expected");
+                    " finite numbers, separated by blanks, were expected");
 }
 
 std::vector<long long> VtkXmlFile::integers(const XmlElement& element, const char* name, std::size_t n) const {
@@ -171,7 +171,7 @@ std::vector<long long> VtkXmlFile::integers(const XmlElement& element, const cha
   }
   if (values.size() == n && split_words(text).size() == n) return values;
   fail(element, std::string(name) + " is " + in_quotes(text) + ", but " + std::to_string(n) +
-                    (n == 1 ? " integer" : " integers, parted by blanks,") + " below 2^31 in size " +
+                    (n == 1 ? " integer" : " integers, separated by blanks,") + " below 2^31 in size " +
                     (n == 1 ? "was" : "were") + " expected");
 }
 

@@ -36,7 +36,7 @@ class VtkXmlFile {
 
   /// The attribute. @throws FormatError where there is none
   const std::string& require(const XmlElement& element, const char* name) const;
-  /// Exactly `n` finite numbers of an attribute, parted by blanks. @throws FormatError
+  /// Exactly `n` finite numbers of an attribute, separated by blanks. @throws FormatError
   std::vector<double> numbers(const XmlElement& element, const char* name, std::size_t n) const;
   /// Exactly `n` integers. @throws FormatError
   std::vector<long long> integers(const XmlElement& element, const char* name, std::size_t n) const;

@@ -63,7 +63,7 @@ class Renumbering {
           std::find_if(letters.begin(), letters.end(), [&](char letter) { return taken.count(letter) == 0; });
       if (free == letters.end())
         throw InputError(molecule.name +
-                         ": has more than 62 chains, which a PDB file cannot tell apart; select some (" +
+                         ": has more than 62 chains, which a PDB file cannot distinguish; select some (" +
                          option("select", "//A") + ")");
       names[residue.chain] = *free;
       taken.insert(*free);

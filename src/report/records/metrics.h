@@ -66,7 +66,7 @@ struct Metric {
   MetricSource source;
   /// JSON pointer in OUT.json; "/NAME" where it is empty. An entry of `not_checked` nulls the object of that name.
   const char* json = "";
-  /// Metrics that follow one another with the same line share one in the printed table, told apart by `word`.
+  /// Metrics that follow one another with the same line share one in the printed table, distinguished by `word`.
   const char* line = "";
   const char* word = "";
   const char* part = "";        ///< the region (kRegionPart) or patch whose value it is; empty for the whole

@@ -10,7 +10,7 @@ namespace espdiff {
 
 struct CompareResult;
 
-/// All parameters of a computed map, and how it came out where it was made.
+/// All parameters of a computed map, and what its computation reported.
 nlohmann::ordered_json recipe_json(const MapRecipe& recipe);
 
 /// What kind of potential a result is of, where its zero lies, and what to know of it; null where both maps were given

@@ -100,7 +100,7 @@ namespace eval ::espdiff::gui {
             in VMD the molecule's data set, or none to compare the shapes alone"
         ttk::entry $path.output -textvariable ::espdiff::gui::form(matrix,output) -width 16
         form_row $path 0 "Results" $path.output "Files begin with this: NAME.csv and NAME.json, and NAME.state while\
-            the run goes on; with a template NAME.h5 too" 2
+            the run continues; with a template NAME.h5 too" 2
         ttk::combobox $path.template -textvariable ::espdiff::gui::form(matrix,template) -width 18 -values {{} medoid}
         form_row $path 1 Template $path.template "Empty: compare each pair by itself. Otherwise map one surface onto\
             each variant, which is faster with many variants and gives differences of potentials only: medoid (the\

@@ -125,7 +125,7 @@ namespace eval ::espdiff::gui {
             grid configure $path.note -row 4 -columnspan 2
         }
         ttk::checkbutton $path.steps -text "in small steps" -variable ::espdiff::gui::form(trajectory,steps)
-        tip $path.steps "Each surface goes on from the frame before, where that is much nearer than the reference:\
+        tip $path.steps "Each surface continues from the frame before, where that is much nearer than the reference:\
             takes half the time, and loses a little more of the surface. A frame that is chosen below is\
             compared with the reference directly"
         grid $path.steps -row 4 -column 2 -columnspan 2 -sticky w -padx {16 0}

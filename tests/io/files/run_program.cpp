@@ -46,7 +46,7 @@ TEST_CASE("run_program: names are words, whatever they contain; a program that n
   CHECK(message_of([] { run_program({{"yes"}, {}, {}, 60, {}}); }) == "yes printed more than 64 MB and was ended");
 }
 
-TEST_CASE("run_program: ends the program and its children when it may not go on") {
+TEST_CASE("run_program: ends the program and its children when it may not continue") {
   const ScratchFolder folder;
   const auto begun = std::chrono::steady_clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(); };

@@ -75,7 +75,7 @@ TEST_CASE("read_dx: flavours") {
   check_values(read_dx("f", dos));
 }
 
-TEST_CASE("read_dx: words parted by other blanks and line ends") {
+TEST_CASE("read_dx: words separated by other blanks and line ends") {
   std::string tabs, lines;
   for (const char c : kHeader) tabs += c == ' ' ? std::string("\t  ") : std::string(1, c);
   check_values(read_dx("f", tabs + values()));

@@ -99,7 +99,7 @@ TEST_CASE("select_atoms: what cannot be selected is refused in our words") {
         "select: '//A//[' is not a selection such as //A, //A/10-20, (AP5,CL) or //A;polymer (gemmi's syntax: "
         "/model/chains/residues/atoms)");
   const std::string remedy =
-      " is not a residue's number or a range; give such as 26, 10-20, -3--1 or 10.A, or several parted by commas "
+      " is not a residue's number or a range; give such as 26, 10-20, -3--1 or 10.A, or several separated by commas "
       "without blanks: 26,27,30-40";
   CHECK(message_of([] { n_selected("//A/["); }) == "select: '[' in '//A/['" + remedy);
   CHECK(message_of([] { n_selected("//A/26,x7"); }) == "select: 'x7' in '//A/26,x7'" + remedy);

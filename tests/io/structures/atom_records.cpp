@@ -36,7 +36,8 @@ TEST_CASE("atom_records: models by MODEL and ENDMDL") {
 TEST_CASE("atom_records: END parts frames as VMD writes them, and nothing else") {
   CHECK(sizes("CRYST1\n" + kAtom + "END\n" + kAtom + "END\n") == Sizes{1, 1});
   CHECK(message_of([] { sizes(kAtom + "END\n" + kAtom + kAtom + "END\n"); }) ==
-        "f.pdb:2: atoms go on after END, and the parts differ (1 and 2 atoms); delete END if they are one molecule, or "
+        "f.pdb:2: atoms continue after END, and the parts differ (1 and 2 atoms); delete END if they are one molecule, "
+        "or "
         "put "
         "them between MODEL and ENDMDL");
 }

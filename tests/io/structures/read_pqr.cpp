@@ -104,7 +104,7 @@ TEST_CASE("read_pqr: a glued serial number in free format") {
   CHECK(m.atoms[0].name == "C");
 }
 
-TEST_CASE("read_pqr: lines that cannot be told apart are refused with their line number") {
+TEST_CASE("read_pqr: lines that cannot be distinguished are refused with their line number") {
   CHECK(pqr_error("REMARK\nATOM 1 N MET A 1 1.0 2.0 3.0 0.5\n") ==
         "f.pqr:2: this PQR line cannot be read: by blanks, the residue number is 'A'; by columns, the line is too "
         "short for PDB "
