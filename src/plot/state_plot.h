@@ -16,6 +16,7 @@ struct StateBar {
 struct StatePlot {
   std::vector<StateBar> bars;
   std::string title, unit;
+  std::string source = "source", target = "target";  ///< what the states are called
 };
 
 /// The gnuplot script of signed bars, one below the other: blue where the target is more positive, red where it is more

@@ -153,10 +153,6 @@ LinePlot along_table(const PlotArguments& a, const CsvTable& table) {
   if (is_matrix_table(table))
     throw InputError(table.path + ": a matrix is drawn from its JSON file, and there is no " +
                      matrix_json_of(table.path) + "; give that file");
-  if (table.find("significant_area_A2") > 0 && a.metrics.empty())
-    throw InputError(table.path +
-                     ": is a table of an ensemble, which `espdiff report` and `render` show; its columns "
-                     "are drawn by --metric, such as --metric difference");
   if (table.rows.empty()) throw FormatError(table.path, 0, "there are no rows to draw");
   const std::string x_name = a.x.empty() ? (table.find("frame") >= 0 ? "frame" : table.columns.front()) : a.x;
   const std::size_t x = table.require(x_name);
@@ -269,6 +265,14 @@ int plot_verb(PlotArguments& a, const Context&) {
       throw InputError("--normalize, --metric, --x and --range are of other tables, and " + a.input +
                        " is one of a comparison's residues");
     const StatePlot plot = state_plot(table, a.kind == "bars", static_cast<std::size_t>(a.top), a.title, a.field);
+    write_picture(a.output, a.kind == "bars" ? state_bars_script(plot, format) : state_scatter_script(plot, format));
+    return 0;
+  }
+  if (!is_json && is_ensemble_table(table) && a.metrics.empty() && a.x.empty() && a.field.empty()) {
+    if (a.normalize || !a.range.empty())
+      throw InputError("--normalize and --range are of other tables, and " + a.input +
+                       " is one of an ensemble's residues");
+    const StatePlot plot = group_plot(table, a.kind == "bars", static_cast<std::size_t>(a.top), a.title);
     write_picture(a.output, a.kind == "bars" ? state_bars_script(plot, format) : state_scatter_script(plot, format));
     return 0;
   }
