@@ -112,6 +112,8 @@ nlohmann::ordered_json PageArrays::add_integers(const std::vector<std::int32_t>&
   return {{"offset", offset}, {"n", values.size()}};
 }
 
-std::string PageArrays::base64() const { return base64_of(deflated(bytes_)); }
+std::string PageArrays::base64() const { return packed(bytes_); }
+
+std::string PageArrays::packed(const std::string& bytes) { return base64_of(deflated(bytes)); }
 
 }  // namespace espdiff
