@@ -218,21 +218,7 @@ namespace eval ::espdiff {
 
     command matrix [dict create arguments {variants} settings variants run ::espdiff::matrix options [concat {
             {-output file required "Prefix of the results OUT.csv and OUT.json, and of the state file"}
-            {-resume boolean 0 "Resume an interrupted run from its state file beside the results"}
-            {-overwrite boolean 0 "Start again and replace results and state files"}
-            {-on-error choice stop "A pair that cannot be compared stops the run, or is skipped and noted in the\
-                results" {stop skip}}
-            {-shard text 1/1 "Compute part I of N of the pairs, I/N, into OUT.shard-I-of-N.state; `espdiff merge`\
-                merges the parts"}
-            {-template text {} "Map the surface of one structure onto each variant, and compare all variants in its\
-                vertices: a mapping for each variant instead of each pair, and differences of potentials only.\
-                medoid: the variant nearest to all others; a label; a number from 0; a structure file. The\
-                potentials stay in OUT.h5"}
-            {-exact-sample count 6 "With a template: pairs, chosen at random, that are compared by themselves as\
-                well, to tell how far the template's are from exact ones; 0 for none"}
-            {-cluster-by text {} "Metric for clustering; mean_abs_difference, or without potentials\
-                mean_displacement_A"}
-        } $computing] \
+        } [study_options matrix] $computing] \
         summary {Compares many variants, each with each, in both directions. A variant is an endpoint that may have a
             `label` and a `group`; {mol ID frames FRAMES ...} stands for one variant per frame,
             {file PATH ...} without `model` for one per model. Each source's surface is regularized, and its
@@ -244,38 +230,14 @@ namespace eval ::espdiff {
     command ensemble [dict create arguments {groups} settings variants run ::espdiff::ensemble options [concat {
             {-output file required "Prefix of the results: OUT.h5 (the potential of each frame), OUT.json, OUT.vtp,\
                 OUT.residues.csv, OUT.patches.csv, OUT.patch_series.csv"}
-            {-frames text all "Frames of each replicate that names none"}
             {-charges text {} "{GROUP FILE ...}: PQR files of the same atoms, whose charges and radii frames of files\
                 take; without it, they keep their own, or PDB2PQR makes them from the group's first frame"}
             {-maps text {} "{GROUP PATTERN ...}: the potential of each frame, computed by another program, in the\
                 frame's coordinates. %d or %03d in the pattern stands for the frame's number in its replicate, from 0,\
                 {replicate} for the replicate's name"}
-            {-map-unit text {} "Unit of these maps if the files do not give it"}
-            {-template text medoid "The structure whose surface is mapped onto every frame: medoid, medoid:GROUP, the\
-                number of a frame, counted from 0 through all groups, or a structure file"}
             {-map text auto "Potential of every frame: auto, pb, pme, coulomb, or with settings, such as\
                 {pb ionic_strength 0.1}"}
-            {-resume boolean 0 "Go on with OUT.h5 of an interrupted run; a complete one gets new statistics"}
-            {-overwrite boolean 0 "Replace OUT.h5 if it exists"}
-            {-on-error choice stop "A frame that cannot be mapped stops the run, or has no values" {stop skip}}
-            {-shard text 1/1 "Map part I of N of the frames, I/N, into OUT.shard-I-of-N.h5; `espdiff merge`\
-                merges the parts"}
-            {-from file {} "Compute the statistics of this complete OUT.h5 again, with {} as groups; or with its replicates in\
-                other groups, by NAME or GROUP/NAME, with @FRAMES for some of their frames"}
-            {-alpha positive 0.05 "Significance level; intervals have the confidence 1 - alpha"}
-            {-control choice tfce "The family-wise p that patches are made of" {tfce max-t}}
-            {-equilibration text none "Frames to cut off at the start of each replicate: none, a number, or auto"}
-            {-most-missing text 0.2 "A vertex without a counterpart in a larger share of a group's frames is not\
-                tested"}
-            {-regress text {} "FILE.csv:COLUMN: a value of each replicate, regressed on the surface, and predicted from\
-                the others; the table has the columns replicate, COLUMN, and group unless names are unique"}
-            {-check-template boolean 0 "Also map the medoid of each group onto every frame, and tell how much of the\
-                answer stays"}
-            {-states boolean 0 "Also compare every frame with every other one, and find the principal components of\
-                the potential"}
-            {-permutations count 10000 "Maximum number of permutations of labels; all are used if there are fewer"}
-            {-seed count 20221 "Random seed; written into the result"}
-        } $computing] \
+        } [study_options ensemble] $computing] \
         summary {Compares two groups of simulations: where is the difference more than noise? One surface, the template,
             is mapped onto every frame, and each replicate is one sample. Groups are a list of a name and its
             replicates, once or twice. A replicate is {mol ID ?sel TEXT? ?frames FRAMES?}, {file PATH} (its models), or

@@ -54,29 +54,20 @@ namespace eval ::espdiff {
 
     # The core's options. Names of files are full, because the working folder may change.
     proc ensemble_options {options groups} {
-        set core [core_options $options]
-        foreach key {resume overwrite on-error shard check-template states alpha control equilibration most-missing
-            permutations seed frames template} {
-            dict set core [string map {- _} $key] [dict get $options $key]
-        }
+        set core [dict merge [core_options $options] [study_values ensemble $options]]
         dict set core output [file normalize [dict get $options output]]
-        foreach key {from template} {
-            set path [dict get $options $key]
-            if {$path ne "" && [file exists $path]} { dict set core $key [file normalize $path] }
-        }
+        dict set core template [full_name [dict get $options template]]
         set column [dict get $options regress]
         if {[set at [string last : $column]] > 0} {
             set column [file normalize [string range $column 0 [expr {$at - 1}]]][string range $column $at end]
         }
         dict set core regress $column
-        if {[dict get $options from] ne ""} { existing_file [dict get $options from] -from }
         dict set core charges [concat {*}[named_list -charges {GROUP FILE} [dict get $options charges] {name path} {
             return [list $name [existing_file $path "-charges $name"]]
         }]]
         dict set core maps [concat {*}[named_list -maps {GROUP PATTERN} [dict get $options maps] {name pattern} {
             return [list $name [file normalize $pattern]]
         }]]
-        dict set core map_unit [dict get $options map-unit]
         set map [dict get $options map]
         if {$map eq "auto"} { return $core }
         if {![is_computed $map]} {

@@ -18,12 +18,8 @@ namespace eval ::espdiff {
     }
 
     proc matrix_options {options} {
-        set core [core_options $options]
-        foreach key {resume overwrite on-error shard cluster-by exact-sample} {
-            dict set core [string map {- _} $key] [dict get $options $key]
-        }
-        set template [dict get $options template]
-        dict set core template [expr {[file isfile $template] ? [file normalize $template] : $template}]
+        set core [dict merge [core_options $options] [study_values matrix $options]]
+        dict set core template [full_name [dict get $options template]]
         # The working folder may change during a background computation.
         dict set core output [file normalize [dict get $options output]]
         return $core

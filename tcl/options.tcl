@@ -45,6 +45,27 @@ namespace eval ::espdiff {
         dict set table $name $description
     }
 
+    # The rows of the core's table of a study's own options, as commands.tcl has them.
+    proc study_options {study} {
+        set rows {}
+        foreach row [core::study_settings $study] {
+            dict with row { lappend rows [list -$name $kind $default $help $choices] }
+        }
+        return $rows
+    }
+
+    # Their values for the core.
+    proc study_values {study options} {
+        set values [dict create]
+        foreach row [core::study_settings $study] {
+            set name [dict get $row name]
+            set value [dict get $options $name]
+            if {[dict get $row kind] eq "file" && $value ne ""} { set value [existing_file $value -$name] }
+            dict set values [string map {- _} $name] $value
+        }
+        return $values
+    }
+
     proc join_words {words {last or}} {
         if {[llength $words] < 2} { return [join $words] }
         return "[join [lrange $words 0 end-1] {, }] $last [lindex $words end]"

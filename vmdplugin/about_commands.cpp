@@ -21,6 +21,10 @@
 #include "plot/colour_map.h"
 #include "potential/potential_plan.h"
 #include "potential/potential_settings.h"
+#include "study/matrix_settings.h"
+#ifdef ESPDIFF_HAVE_HDF5
+#include "ensemble/ensemble_settings.h"
+#endif
 #include "prepare/charges/pdb2pqr.h"
 #include "report/records/metrics.h"
 #include "system/this_process.h"
@@ -84,24 +88,13 @@ Tcl_Obj* back_ends(const Call& call) {
   return to_list(all);
 }
 
-const char* name_of(SettingKind kind) {
-  switch (kind) {
-    case SettingKind::kNumber: return "number";
-    case SettingKind::kInteger: return "integer";
-    case SettingKind::kBoolean: return "boolean";
-    case SettingKind::kText: return "text";
-    case SettingKind::kChoice: break;
-  }
-  return "choice";
-}
-
 Tcl_Obj* list_settings(const Call&) {
   const CompareOptions defaults;
   std::vector<Tcl_Obj*> all;
   for (const Setting& setting : settings()) {
     all.push_back(to_dict({{"name", to_obj(setting.name)},
                            {"group", to_obj(setting.group)},
-                           {"kind", to_obj(setting.is_named ? "named" : name_of(setting.kind))},
+                           {"kind", to_obj(setting.is_named ? "named" : to_string(setting.kind))},
                            {"choices", to_list(setting.choices)},
                            {"default", to_obj(setting.get(defaults))},
                            {"help", to_obj(setting.help)},
@@ -111,6 +104,30 @@ Tcl_Obj* list_settings(const Call&) {
                            {"file", to_obj(setting.is_file)}}));
   }
   return to_list(all);
+}
+
+template <typename Study>
+Tcl_Obj* list_rows(const std::vector<OptionRow<Study>>& rows) {
+  const Study defaults;
+  std::vector<Tcl_Obj*> all;
+  for (const OptionRow<Study>& row : rows) {
+    all.push_back(to_dict({{"name", to_obj(row.name)},
+                           {"kind", to_obj(row.is_file ? "file" : to_string(row.kind))},
+                           {"choices", to_list(row.choices)},
+                           {"default", to_obj(row.get(defaults))},
+                           {"help", to_obj(row.help)}}));
+  }
+  return to_list(all);
+}
+
+/// STUDY: the options of `matrix` or `ensemble` besides those of a comparison.
+Tcl_Obj* list_study_settings(const Call& call) {
+  const std::string study = call.text(0);
+  if (study == "matrix") return list_rows(matrix_settings());
+#ifdef ESPDIFF_HAVE_HDF5
+  if (study == "ensemble") return list_rows(ensemble_settings());
+#endif
+  return Tcl_NewListObj(0, nullptr);
 }
 
 /// The options of computed potentials, as list_settings().
@@ -124,7 +141,7 @@ Tcl_Obj* list_potential_settings(const Call&) {
     for (const PotentialMethod method : setting.of) of.push_back(to_string(method));
     all.push_back(to_dict({{"name", to_obj(setting.key)},
                            {"of", to_list(of)},
-                           {"kind", to_obj(name_of(setting.kind))},
+                           {"kind", to_obj(to_string(setting.kind))},
                            {"choices", to_list(setting.choices)},
                            {"default", to_obj(setting.get(defaults))},
                            {"map_option", to_obj(setting.map_option())},
@@ -299,6 +316,7 @@ std::vector<Command> about_commands() {
           {"back_ends", 0, 0, "", back_ends},
           {"device", 1, 1, "name", device},
           {"settings", 0, 0, "", list_settings},
+          {"study_settings", 1, 1, "study", list_study_settings},
           {"potential_settings", 0, 0, "", list_potential_settings},
           {"potential_facts", 2, 2, "file model", facts_of_file},
           {"usual_potential", 1, 1, "molecules", usual_potential},

@@ -2,9 +2,8 @@
 #include "commands.h"
 #include "tcl_values.h"
 #ifdef ESPDIFF_HAVE_HDF5
-#include <limits>
-
 #include "engine/engine.h"
+#include "ensemble/ensemble_settings.h"
 #include "ensemble_object.h"
 #include "io/files/sha256.h"
 #include "matrix/matrix_run.h"
@@ -44,44 +43,10 @@ ReplicateRequest parse_replicate(Tcl_Obj* description, std::size_t number, Ensem
   return replicate;
 }
 
-EnsembleOptions parse_statistics(DictReader& reader) {
-  EnsembleOptions statistics;
-  statistics.alpha = reader.number("alpha", statistics.alpha);
-  if (!(statistics.alpha > 0 && statistics.alpha <= 0.5))
-    throw InputError(option("alpha") + ": " + reader.text("alpha") + " is not above 0 and at most 0.5");
-  statistics.most_missing = reader.number("most_missing", statistics.most_missing);
-  if (!(statistics.most_missing >= 0 && statistics.most_missing <= 0.9))
-    throw InputError(option("most-missing") + ": " + reader.text("most_missing") + " is not from 0 to 0.9");
-  statistics.control = reader.text("control", "tfce") == "tfce" ? ErrorControl::kTfce : ErrorControl::kMaxT;
-  statistics.equilibration = parse_equilibration(reader.text("equilibration", "none"));
-  const auto counted = [&](const char* key, const std::string& name, std::size_t otherwise, int least, int most) {
-    const int n = reader.integer(key, static_cast<int>(otherwise));
-    if (n < least || n > most)
-      throw InputError(option(name) + ": " + std::to_string(n) + " is not from " + std::to_string(least) + " to " +
-                       std::to_string(most));
-    return static_cast<std::size_t>(n);
-  };
-  SurfaceTestOptions& test = statistics.test;
-  test.max_permutations = counted("permutations", "permutations", test.max_permutations, 20, 1000000);
-  test.seed = counted("seed", "seed", test.seed, 0, std::numeric_limits<int>::max());
-  return statistics;
-}
-
 void parse_study(DictReader& reader, EnsembleStudy& study) {
   EnsembleRequest& inputs = study.inputs;
   study.run.output = to_string(reader.require("output"));
-  study.run.shard = parse_shard(reader.text("shard", "1/1"));
-  study.run.resume = reader.boolean("resume", false);
-  study.run.overwrite = reader.boolean("overwrite", false);
-  study.run.skip_errors = reader.text("on_error", "stop") == "skip";
-  study.from = reader.text("from");
-  study.regress = reader.text("regress");
-  study.check_template = reader.boolean("check_template", false);
-  study.states = reader.boolean("states", false);
-  study.statistics = parse_statistics(reader);
-  inputs.frames = reader.text("frames", inputs.frames);
-  inputs.template_text = reader.text("template", inputs.template_text);
-  inputs.plugins = reader.text("plugins");
+  reader.take(ensemble_settings(), study);
   if (Tcl_Obj* const map = reader.find("map")) {
     DictReader request(map, "map");
     inputs.potential.potential = to_string(request.require("kind"));
@@ -94,7 +59,6 @@ void parse_study(DictReader& reader, EnsembleStudy& study) {
     const std::vector<std::string> words = texts_of(charges, "charges");
     for (std::size_t i = 0; i + 1 < words.size(); i += 2) inputs.charges[words[i]] = words[i + 1];
   }
-  inputs.maps.unit = reader.text("map_unit");
   if (Tcl_Obj* const maps = reader.find("maps")) {
     const std::vector<std::string> words = texts_of(maps, "maps");
     for (std::size_t i = 0; i + 1 < words.size(); i += 2) inputs.maps.of_group[words[i]] = words[i + 1];

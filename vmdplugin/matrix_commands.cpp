@@ -5,6 +5,7 @@
 #include "ensemble_views.h"
 #include "options/input_settings.h"
 #include "options/options.h"
+#include "study/matrix_settings.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
@@ -34,26 +35,12 @@ MatrixStudy::Item parse_variant(Tcl_Obj* description, std::size_t number) {
   return item;
 }
 
-MatrixRun parse_run(DictReader& reader) {
-  MatrixRun run;
-  run.output = to_string(reader.require("output"));
-  run.shard = parse_shard(reader.text("shard", "1/1"));
-  run.resume = reader.boolean("resume", false);
-  run.overwrite = reader.boolean("overwrite", false);
-  run.skip_errors = reader.text("on_error", "stop") == "skip";
-  run.cluster_by = reader.text("cluster_by");
-  return run;
-}
-
 Tcl_Obj* matrix(const Call& call) {
   auto object = std::make_shared<MatrixObject>();
   MatrixStudy& study = object->study;
   DictReader reader(call.arguments[1], "options");
-  study.run = parse_run(reader);
-  study.template_text = reader.text("template");
-  const int n_exact = reader.integer("exact_sample", 6);
-  if (n_exact < 0) throw InputError(option("exact-sample") + ": " + std::to_string(n_exact) + " is negative");
-  study.n_exact = static_cast<std::size_t>(n_exact);
+  study.run.output = to_string(reader.require("output"));
+  reader.take(matrix_settings(), study);
   object->computation = parse_computation(reader, nullptr);
   study.options = object->computation.options;
   study.settings = reader.rest();
@@ -77,7 +64,10 @@ Tcl_Obj* merge(const Call& call) {
   std::vector<std::string> paths;
   for (Tcl_Obj* const path : to_vector(call.arguments[0], "state files")) paths.push_back(to_string(path));
   DictReader reader(call.arguments[1], "options");
-  const MatrixRun run = parse_run(reader);
+  MatrixRun run;
+  run.output = to_string(reader.require("output"));
+  run.overwrite = reader.boolean("overwrite", false);
+  run.cluster_by = reader.text("cluster_by");
   reader.finish();
   if (const auto path = merged_ensemble(paths, run.output, run.overwrite)) return to_list({*path});
   return to_list(merge_parts(paths, run).files);

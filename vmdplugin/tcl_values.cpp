@@ -90,6 +90,11 @@ std::vector<Tcl_Obj*> to_vector(Tcl_Obj* value, const std::string& what) {
   return {elements, elements + n};
 }
 
+std::string key_of(std::string name) {
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
 DictReader::DictReader(Tcl_Obj* dict, std::string what) : dict_(dict), what_(std::move(what)) {
   int size = 0;
   if (Tcl_DictObjSize(nullptr, dict_, &size) != TCL_OK)

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "options/option_row.h"
+
 namespace espdiff::vmdplugin {
 
 /// Each returns a new object with reference count 0.
@@ -32,6 +34,9 @@ double to_double(Tcl_Obj* value, const std::string& what);
 bool to_bool(Tcl_Obj* value, const std::string& what);
 std::vector<Tcl_Obj*> to_vector(Tcl_Obj* value, const std::string& what);
 
+/// An option's name as a key: `most_missing` of `most-missing`.
+std::string key_of(std::string name);
+
 /// Reads a dict key by key. finish() refuses keys that were not read.
 class DictReader {
  public:
@@ -47,6 +52,13 @@ class DictReader {
   int integer(const char* key, int otherwise);
   double number(const char* key, double otherwise);
   bool boolean(const char* key, bool otherwise);
+  /// Sets what is there of a table's options: the key of `most-missing` is most_missing.
+  template <typename Study>
+  void take(const std::vector<OptionRow<Study>>& rows, Study& study) {
+    for (const OptionRow<Study>& row : rows) {
+      if (Tcl_Obj* const value = find(key_of(row.name).c_str())) row.set(study, to_string(value));
+    }
+  }
   /// The keys that were not read yet, with their values.
   std::vector<std::pair<std::string, std::string>> rest() const;
   /// @throws InputError that lists the keys there are, when an unread one is left

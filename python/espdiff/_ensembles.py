@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import glob
 import hashlib
-import numbers
 import os
 import tempfile
 import typing
@@ -17,20 +16,12 @@ from ._functions import _as_settings, _Progress
 from ._inputs import frame_state, is_atomgroup
 from ._reports import written
 from ._results import EngineResult, frame_of, table_of
-from ._signatures import takes_options
+from ._signatures import study_defaults, study_texts, takes_options
 
 if typing.TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._options import Options
-
-
-def _checked(name, value, least, most):
-    if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise _core.InputError(f"{name}: {value!r} is not a number")
-    if not least <= value <= most:
-        raise _core.InputError(f"{name}: {value} is not from {least} to {most}")
-    return value
+    from ._options import EnsembleOptions
 
 
 class Frames:
@@ -191,30 +182,17 @@ class Ensemble(EngineResult):
         return polydata(self.positions, self.triangles, {**arrays, "residue_index": self.residue_index})
 
 
-def _order(*, charges=None, maps=None, map_unit="", frames="all", template="medoid", output="", resume=False,
-           overwrite=False, skip_errors=False, shard=None, from_file=None, check_template=False, states=False,
-           regress=None, alpha=0.05, control="tfce",
-           equilibration="none", most_missing=0.2, permutations=10000, seed=20221, plugins=""):
-    """The order of a study, checked; its defaults are the command line's."""
-    if control not in ("tfce", "max-t"):
-        raise _core.InputError(f"control: {control!r} is not tfce or max-t")
+def _order(output, given):
+    """The order of a study; what is not among the rows of its options has another form in Python."""
+    frames = given.get("frames", "all")
+    rows = {**given, "frames": frames if isinstance(frames, str) else "all"}
     return {
-        "charges": {str(group): os.fspath(path) for group, path in (charges or {}).items()},
-        "maps": {str(group): os.fspath(pattern) for group, pattern in (maps or {}).items()}, "map_unit": map_unit,
-        "frames": frames if isinstance(frames, str) else "all", "template": str(template), "output": output,
-        "resume": _checks.switch("resume", resume), "overwrite": _checks.switch("overwrite", overwrite),
-        "skip_errors": _checks.switch("skip_errors", skip_errors), "shard": shard or "1/1",
-        "from": os.fspath(from_file) if from_file else "",
-        "check_template": _checks.switch("check_template", check_template), "states": _checks.switch("states", states), "regress": os.fspath(regress or ""),
-        "alpha": _checked("alpha", alpha, 1e-6, 0.5),
-        "control": control, "equilibration": str(equilibration),
-        "most_missing": _checked("most_missing", most_missing, 0, 0.9),
-        "permutations": _checked("permutations", permutations, 20, 1000000),
-        "seed": _checked("seed", seed, 0, 2**63 - 1),
-        "plugins": plugins}
+        "charges": {str(group): os.fspath(path) for group, path in (given.get("charges") or {}).items()},
+        "maps": {str(group): os.fspath(pattern) for group, pattern in (given.get("maps") or {}).items()},
+        "output": output, "options": study_texts("ensemble", rows)}
 
 
-ORDER_KEYS = frozenset(_order.__kwdefaults__) - {"output"}
+ORDER = {"charges": None, "maps": None, **study_defaults("ensemble")}
 
 
 def _check_groups(groups):
@@ -224,9 +202,9 @@ def _check_groups(groups):
             "the path of a list")
 
 
-@takes_options(besides={key: value for key, value in _order.__kwdefaults__.items() if key != "output"})
+@takes_options(besides=ORDER)
 def ensemble(groups=None, *, output=None, potential: str = "auto", device: str = "auto", threads: int = 0, progress=None,
-             **options: Unpack[Options]) -> typing.Optional[Ensemble]:
+             **options: Unpack[EnsembleOptions]) -> typing.Optional[Ensemble]:
     """Compares two groups of simulations on one template surface: where is the difference more than noise?
 
     groups: {name: replicates}, two groups, or one to describe it; or the path of a list of them (`espdiff ensemble
@@ -255,14 +233,14 @@ def ensemble(groups=None, *, output=None, potential: str = "auto", device: str =
             if not isinstance(kind, str):
                 raise _core.InputError(f"fields[{name!r}]: an ensemble takes kinds of fields, such as 'charge', not a "
                                        f"{type(kind).__name__}; write the values of each residue or atom to a table")
-    order = {name: value for name, value in options.items() if name in ORDER_KEYS}
-    settings = {name: value for name, value in options.items() if name not in ORDER_KEYS}
+    order = {name: value for name, value in options.items() if name in ORDER}
+    settings = {name: value for name, value in options.items() if name not in ORDER}
     if output is None and (order.get("shard") or order.get("resume")):
         raise _core.InputError("output: a part of an ensemble, or one to go on with, needs files")
     if groups is None and not order.get("from_file"):
         raise _core.InputError('groups: none is given; name one or two, {"wild": ["w1.pdb", ...], "mutant": [...]}')
     folder = tempfile.TemporaryDirectory(prefix="espdiff-") if output is None else None
-    made = _order(**order, output=os.path.join(folder.name, "ensemble") if folder else _checks.prefix("output", output))
+    made = _order(os.path.join(folder.name, "ensemble") if folder else _checks.prefix("output", output), order)
     universes = {atoms.universe for name, members in (groups.items() if isinstance(groups, dict) else ())
                  for _, atoms in _members(name, members) if is_atomgroup(atoms)}
     before = [(universe.trajectory, universe.trajectory.frame) for universe in universes]

@@ -13,20 +13,12 @@ from . import _checks, _core
 from ._inputs import refuse_the_same_atoms, state_of, with_values
 from ._reports import table_beside
 from ._results import Comparison, Matrix
-from ._signatures import PREPARATION_GROUPS, option_rows, takes_options
+from ._signatures import PREPARATION_GROUPS, as_text, option_rows, study_defaults, study_texts, takes_options
 
 if typing.TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._options import Options
-
-
-def _as_text(value):
-    if isinstance(value, bool):
-        return "1" if value else "0"
-    if isinstance(value, (list, tuple)):
-        return ",".join(_as_text(entry) for entry in value)
-    return repr(value) if isinstance(value, float) else str(value)
+    from ._options import MatrixOptions, Options
 
 
 def _as_settings(options):
@@ -41,7 +33,7 @@ def _as_settings(options):
         fields = [fields]
     if hasattr(fields, "items"):
         fields = [f"{name}={kind}" for name, kind in fields.items()]
-    return [(name.replace("_", "-"), _as_text(value)) for name, value in options.items()] + [
+    return [(name.replace("_", "-"), as_text(value)) for name, value in options.items()] + [
         ("patch", f"{name}={selection}") for name, selection in patches.items()] + [("field", field) for field in fields]
 
 
@@ -201,11 +193,10 @@ def labels_of_states(states):
             for i, s in enumerate(states)]
 
 
-@takes_options
+@takes_options(besides=study_defaults("matrix"))
 def matrix(states, labels=None, *, groups=None, potential: str = "auto", pme_cell: str = "auto", output=None,
-           resume: bool = False, overwrite: bool = False, skip_errors: bool = False, shard=None, template=None,
-           exact_sample: int = 6, device: str = "auto", threads: int = 0, progress=None,
-           **options: Unpack[Options]) -> typing.Optional[Matrix]:
+           device: str = "auto", threads: int = 0, progress=None,
+           **options: Unpack[MatrixOptions]) -> typing.Optional[Matrix]:
     """Compares every state with every other one, in both directions.
 
     states: as in compare(). labels: a name for each; paths name themselves. groups: optional, one for each state.
@@ -218,27 +209,21 @@ def matrix(states, labels=None, *, groups=None, potential: str = "auto", pme_cel
     Returns a Matrix, None for a shard.
     """
     potential, pme_cell, device, threads = _checks.computation(potential, device, threads, pme_cell, progress)
-    resume, overwrite, skip_errors = (_checks.switch(name, value) for name, value in (
-        ("resume", resume), ("overwrite", overwrite), ("skip_errors", skip_errors)))
+    own = {name: options.pop(name) for name in study_defaults("matrix") if name in options}
     states = _checks.several("states", states, "states")
     labels, groups = ([_checks.text(name, entry) for entry in _checks.several(name, given, "texts")]
                       if given is not None else None for name, given in (("labels", labels), ("groups", groups)))
-    if shard is not None:
-        _checks.text("shard", shard)
     if labels is None:
         labels = labels_of_states(states)
-    if (shard or resume) and output is None:
+    if (own.get("shard") or own.get("resume")) and output is None:
         raise _core.InputError("output: a part of a matrix, or one to go on with, needs files")
-    if not isinstance(exact_sample, int) or exact_sample < 0:
-        raise _core.InputError(f"exact_sample: {exact_sample!r} is no number of pairs; give 0 or more")
     roles = [f"states[{i}]" for i in range(len(states))]
     options, arrays = _array_fields(options, len(states))
     given = _with_arrays([state_of(state, role) for state, role in zip(states, roles)], states, arrays, roles)
     with _Progress(progress, "matrix") as listener, tempfile.TemporaryDirectory(prefix="espdiff-") as scratch:
         prefix = _checks.prefix("output", output) if output is not None else os.path.join(scratch, "matrix")
         text = _core.matrix(given, list(labels), list(groups or []), _as_settings(options), potential, pme_cell, device,
-                            threads, prefix, resume, overwrite, skip_errors, shard or "",
-                            "" if template is None else str(template), exact_sample, listener)
+                            threads, prefix, study_texts("matrix", own), listener)
         return Matrix(text, table_beside(prefix)) if text else None
 
 

@@ -106,3 +106,40 @@ class Options(TypedDict, total=False):
     pme_pad: str
     dielectric: float
     distance_dependent: bool
+
+
+class MatrixOptions(Options, total=False):
+    """The same of matrix()."""
+
+    cluster_by: str
+    template: str
+    exact_sample: int
+    resume: bool
+    overwrite: bool
+    skip_errors: bool
+    shard: str
+
+
+class EnsembleOptions(Options, total=False):
+    """The same of ensemble()."""
+
+    map_unit: str
+    map_array: str
+    frames: str
+    template: str
+    plugins: str
+    resume: bool
+    overwrite: bool
+    skip_errors: bool
+    shard: str
+    from_file: str
+    check_template: bool
+    regress: str
+    states: bool
+    alpha: float
+    # tfce, max-t
+    control: str
+    equilibration: str
+    most_missing: float
+    permutations: int
+    seed: int

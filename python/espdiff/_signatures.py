@@ -7,14 +7,17 @@ _options.py, which `python -m espdiff._signatures` writes.
 import difflib
 import functools
 import inspect
+import os
 import typing
 
-from . import _core
+from . import _checks, _core
 
 _TYPES = {"number": float, "integer": int, "boolean": bool, "choice": str, "text": str, "list": typing.Union[str, list],
           "named": dict}
 PLURALS = {"patch": "patches", "field": "fields"}  # of options that may be given several times, under names
 PREPARATION_GROUPS = ("Structures", "Charges")
+# Options of matrix() and ensemble() whose name on the command line is a word of Python's, or whose two words are a switch.
+STUDY_NAMES = {"from": "from_file", "on-error": "skip_errors"}
 
 
 def option_rows(groups=None):
@@ -32,6 +35,46 @@ def _default(row):
     if text == "" or row["kind"] in ("list", "named"):
         return text or None
     return {"number": float, "integer": int, "boolean": lambda t: t == "1"}.get(row["kind"], str)(text)
+
+
+def study_rows(study):
+    """The rows of the options that "matrix" or "ensemble" has besides those of compare(), under their Python names."""
+    rows = []
+    for row in _core.study_settings(study):
+        if row["name"] == "on-error":
+            row = {**row, "kind": "boolean", "default": "0"}
+        rows.append({**row, "option": row["name"], "name": STUDY_NAMES.get(row["name"], row["name"].replace("-", "_"))})
+    return rows
+
+
+def study_defaults(study):
+    """{name: default} of these."""
+    return {row["name"]: None if row["name"] == "shard" else _default(row) for row in study_rows(study)}
+
+
+def study_texts(study, given):
+    """[(option, text)] of those that are given, by Python's names."""
+    texts = []
+    for row in study_rows(study):
+        name, value = row["name"], given.get(row["name"])
+        if value is None:
+            continue
+        if row["kind"] == "boolean":
+            value = _checks.switch(name, value)
+            value = ("skip" if value else "stop") if row["option"] == "on-error" else str(int(value))
+        elif row["kind"] == "text":
+            value = os.fspath(value) if isinstance(value, os.PathLike) else str(value)
+        texts.append((row["option"], as_text(value)))
+    return texts
+
+
+def as_text(value):
+    """An option's value as the tables read it."""
+    if isinstance(value, bool):
+        return "1" if value else "0"
+    if isinstance(value, (list, tuple)):
+        return ",".join(as_text(entry) for entry in value)
+    return repr(value) if isinstance(value, float) else str(value)
 
 
 def takes_options(function=None, *, groups=None, besides=()):
@@ -64,20 +107,29 @@ def takes_options(function=None, *, groups=None, besides=()):
     return checked
 
 
-def typed_options():
-    """The content of _options.py."""
+def _typed_class(head, doc, rows):
     names = {"number": "float", "integer": "int", "boolean": "bool", "choice": "str", "text": "str",
              "list": "Union[str, List[str]]", "named": "Dict[str, str]"}
-    lines = ['"""The options of comparisons for type checkers; written by `python -m espdiff._signatures`."""', "",
-             "from typing import Any, Dict, List, TypedDict, Union", "", "", "class Options(TypedDict, total=False):"]
-    lines.append('    """What **options of compare() and its like stands for; `espdiff.help_options()` explains them."""')
-    lines.append("")
-    for row in option_rows():
+    lines = ["", "", f"class {head}:", f'    """{doc}"""', ""]
+    for row in rows:
         kind = row["kind"]
         if kind == "choice":
             lines.append("    # " + ", ".join(row["choices"]))
         # Of a field, a kind's name or an array.
         lines.append(f"    {row['name']}: {'Dict[str, Any]' if row['name'] == 'fields' else names[kind]}")
+    return lines
+
+
+def typed_options():
+    """The content of _options.py."""
+    lines = ['"""The options of comparisons for type checkers; written by `python -m espdiff._signatures`."""', "",
+             "from typing import Any, Dict, List, TypedDict, Union"]
+    lines += _typed_class("Options(TypedDict, total=False)",
+                          "What **options of compare() and its like stands for; `espdiff.help_options()` explains them.",
+                          option_rows())
+    for study in ("matrix", "ensemble"):
+        lines += _typed_class(f"{study.capitalize()}Options(Options, total=False)", f"The same of {study}().",
+                              study_rows(study))
     return "\n".join(lines) + "\n"
 
 

@@ -9,6 +9,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "engine/engine.h"
+#include "ensemble/ensemble_settings.h"
 #include "ensemble/ensemble_study.h"
 #include "ensemble/file/ensemble_file.h"
 #include "ensemble_result.h"
@@ -72,17 +73,6 @@ std::vector<ReplicateRequest> replicates_of(const nb::list& groups) {
   return all;
 }
 
-EnsembleOptions statistics_of(const nb::dict& order) {
-  EnsembleOptions statistics;
-  statistics.alpha = nb::cast<double>(order["alpha"]);
-  statistics.most_missing = nb::cast<double>(order["most_missing"]);
-  statistics.control = text_in(order, "control") == "tfce" ? ErrorControl::kTfce : ErrorControl::kMaxT;
-  statistics.equilibration = parse_equilibration(text_in(order, "equilibration"));
-  statistics.test.max_permutations = nb::cast<std::uint64_t>(order["permutations"]);
-  statistics.test.seed = nb::cast<std::uint64_t>(order["seed"]);
-  return statistics;
-}
-
 EnsembleStudy study_of(const nb::list& groups, const nb::dict& order) {
   EnsembleStudy study;
   if (order.contains("list")) {
@@ -95,20 +85,8 @@ EnsembleStudy study_of(const nb::list& groups, const nb::dict& order) {
     study.inputs.charges[nb::cast<std::string>(group)] = nb::cast<std::string>(file);
   for (const auto& [group, pattern] : nb::cast<nb::dict>(order["maps"]))
     study.inputs.maps.of_group[nb::cast<std::string>(group)] = nb::cast<std::string>(pattern);
-  study.inputs.maps.unit = text_in(order, "map_unit");
-  study.inputs.frames = text_in(order, "frames");
-  study.inputs.template_text = text_in(order, "template");
-  study.inputs.plugins = text_in(order, "plugins");
   study.run.output = text_in(order, "output");
-  study.run.shard = parse_shard(text_in(order, "shard"));
-  study.run.resume = nb::cast<bool>(order["resume"]);
-  study.run.overwrite = nb::cast<bool>(order["overwrite"]);
-  study.run.skip_errors = nb::cast<bool>(order["skip_errors"]);
-  study.statistics = statistics_of(order);
-  study.check_template = nb::cast<bool>(order["check_template"]);
-  study.states = nb::cast<bool>(order["states"]);
-  study.regress = text_in(order, "regress");
-  study.from = text_in(order, "from");
+  set_rows(ensemble_settings(), study, nb::cast<Settings>(order["options"]));
   return study;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 bool is_of_potential(const std::string& name) {
   const auto& all = potential_settings();
-  return std::any_of(all.begin(), all.end(), [&](const PotentialSetting& s) { return s.option == name; });
+  return std::any_of(all.begin(), all.end(), [&](const PotentialSetting& s) { return s.name == name; });
 }
 
 }  // namespace

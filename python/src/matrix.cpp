@@ -13,6 +13,7 @@
 #include "inputs.h"
 #include "matrix/write_matrix.h"
 #include "run.h"
+#include "study/matrix_settings.h"
 #include "study/matrix_study.h"
 
 namespace espdiff::python {
@@ -31,8 +32,7 @@ std::string text_of(const MatrixReport& report, const MatrixRun& run) {
 std::string compute(const std::vector<StatePtr>& states, const std::vector<std::string>& labels,
                     const std::vector<std::string>& groups, const Settings& settings, const std::string& potential,
                     const std::string& pme_cell, const std::string& device, int threads, const std::string& output,
-                    bool resume, bool overwrite, bool skip_errors, const std::string& shard,
-                    const std::string& template_text, std::size_t n_exact, const nb::object& progress) {
+                    const Settings& own, const nb::object& progress) {
   if (labels.size() != states.size())
     throw InputError("labels: there are " + std::to_string(labels.size()) + " for " + std::to_string(states.size()) +
                      " states");
@@ -47,13 +47,8 @@ std::string compute(const std::vector<StatePtr>& states, const std::vector<std::
   study.settings = settings;
   study.potential = computation.potential;
   study.refuses_shapes = true;
-  study.template_text = template_text;
-  study.n_exact = n_exact;
   study.run.output = output;
-  study.run.resume = resume;
-  study.run.overwrite = overwrite;
-  study.run.skip_errors = skip_errors;
-  if (!shard.empty()) study.run.shard = parse_shard(shard);
+  set_rows(matrix_settings(), study, own);
   std::string text;
   run(progress,
       [&](const Progress& told) { text = text_of(run_matrix(study, *computation.make_engine(), told), study.run); });
@@ -79,8 +74,7 @@ void add_matrix(nb::module_& module) {
              nb::arg("progress").none());
   module.def("matrix", &compute, nb::arg("states"), nb::arg("labels"), nb::arg("groups"), nb::arg("settings"),
              nb::arg("potential"), nb::arg("pme_cell"), nb::arg("device"), nb::arg("threads"), nb::arg("output"),
-             nb::arg("resume"), nb::arg("overwrite"), nb::arg("skip_errors"), nb::arg("shard"), nb::arg("template"),
-             nb::arg("exact_sample"), nb::arg("progress").none());
+             nb::arg("options"), nb::arg("progress").none());
 }
 
 }  // namespace espdiff::python

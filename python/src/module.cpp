@@ -26,22 +26,15 @@
 #include "report/records/metrics.h"
 #include "series.h"
 #include "state.h"
+#include "study/matrix_settings.h"
 #include "surface.h"
+#ifdef ESPDIFF_HAVE_HDF5
+#include "ensemble/ensemble_settings.h"
+#endif
 
 namespace nb = nanobind;
 
 namespace {
-
-const char* word_of(espdiff::SettingKind kind) {
-  switch (kind) {
-    case espdiff::SettingKind::kNumber: return "number";
-    case espdiff::SettingKind::kInteger: return "integer";
-    case espdiff::SettingKind::kBoolean: return "boolean";
-    case espdiff::SettingKind::kChoice: return "choice";
-    case espdiff::SettingKind::kText: break;
-  }
-  return "text";
-}
 
 /// Name, kind, choices, default and help of every option.
 nb::list list_settings() {
@@ -60,12 +53,38 @@ nb::list list_settings() {
     rows.append(row);
   };
   for (const espdiff::Setting& s : espdiff::settings()) {
-    const char* const kind = s.is_named ? "named" : s.is_list ? "list" : word_of(s.kind);
+    const char* const kind = s.is_named ? "named" : s.is_list ? "list" : to_string(s.kind);
     add(s.name, s.group, s.choices, s.get(defaults), s.help, kind, s.name == espdiff::kThesisSetting ? "" : s.key());
   }
   for (const espdiff::PotentialSetting& s : espdiff::potential_settings())
-    add(s.option, "Potentials", s.choices, "", s.help, word_of(s.kind), "");
+    add(s.name, "Potentials", s.choices, "", s.help, to_string(s.kind), "");
   return rows;
+}
+
+template <typename Study>
+nb::list list_rows(const std::vector<espdiff::OptionRow<Study>>& rows) {
+  nb::list all;
+  const Study defaults;
+  for (const espdiff::OptionRow<Study>& row : rows) {
+    nb::dict described;
+    described["name"] = row.name;
+    described["kind"] = to_string(row.kind);
+    described["group"] = row.group;
+    described["choices"] = row.choices;
+    described["default"] = row.get(defaults);
+    described["help"] = row.help;
+    all.append(described);
+  }
+  return all;
+}
+
+/// Those of matrix() or ensemble() besides the comparison's; none of ensembles without HDF5.
+nb::list list_study_settings(const std::string& study) {
+  if (study == "matrix") return list_rows(espdiff::matrix_settings());
+#ifdef ESPDIFF_HAVE_HDF5
+  if (study == "ensemble") return list_rows(espdiff::ensemble_settings());
+#endif
+  return {};
 }
 
 nb::list list_metrics() {
@@ -152,6 +171,8 @@ NB_MODULE(_core, module) {
   espdiff::python::add_command_line(module);
   module.def("settings", &list_settings,
              "Every option of compare() and its like: name, kind, its key in OUT.json, group, choices, default, help.");
+  module.def("study_settings", &list_study_settings, nb::arg("study"),
+             "The options of matrix or ensemble besides those of compare(), in the same form.");
   module.def("automatic_limit", &espdiff::automatic_limit, nb::arg("values"), nb::arg("percentile") = 90.0,
              "The end of a colour scale when none is given, as of all pictures.");
   module.def("signed_colours", &signed_colours, nb::arg("n"),

@@ -93,12 +93,6 @@ void add_plugins_option(CLI::App& parser, std::string& folder, const std::string
 
 namespace {
 
-/// "Do not reuse the cache" of "Reuse the cache".
-std::string negated(std::string help) {
-  help[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(help[0])));
-  return "Do not " + help;
-}
-
 /// Refuses an old name with the new one. Help does not list it.
 void refuse_earlier_names(CLI::App& parser) {
   for (const RenamedSetting& renamed : renamed_settings()) {
@@ -123,50 +117,35 @@ bool has_setting(const Setting& setting, SettingsFor what) {
 
 }  // namespace
 
+std::string type_of(SettingKind kind, const std::vector<std::string>& choices, bool is_file) {
+  if (kind == SettingKind::kChoice) return joined(choices, "|");
+  return is_file ? "FILE" : kind == SettingKind::kText ? "TEXT" : "NUMBER";
+}
+
+std::string refusal(const std::function<void()>& set, const std::string& name) {
+  try {
+    set();
+  } catch (const InputError& error) {
+    return without_name(error, name);
+  }
+  return {};
+}
+
+std::string negated(std::string help) {
+  help[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(help[0])));
+  return "Do not " + help;
+}
+
 void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what) {
   if (what != SettingsFor::kSurface && what != SettingsFor::kPreparation) refuse_earlier_names(parser);
   const CompareOptions defaults;
   for (const Setting& setting : settings()) {
     if (!has_setting(setting, what)) continue;
-    const std::string name = setting.name, value = setting.get(defaults);
-    if (setting.kind == SettingKind::kBoolean) {
-      const bool on = value == "1";
-      parser
-          .add_flag_callback((on ? "--no-" : "--") + name,
-                             [&given, name, on] { given.emplace_back(name, on ? "0" : "1"); },
-                             on ? negated(setting.help) : setting.help)
-          ->group(setting.group);
-      continue;
-    }
-    // Checked during parsing, so that the message names the option.
-    const auto check = [&setting](const std::string& text) {
-      CompareOptions scratch;
-      try {
-        setting.set(scratch, text);
-      } catch (const InputError& error) {
-        return without_name(error, setting.name);
-      }
-      return std::string();
-    };
-    const std::string type = setting.is_named                     ? "NAME=SELECTION"
-                             : setting.is_file                    ? "FILE"
-                             : setting.kind == SettingKind::kText ? "TEXT"
-                                                                  : "NUMBER";
-    CLI::Option* const added =
-        setting.is_list ? parser.add_option_function<std::vector<std::string>>(
-                              "--" + name,
-                              [&given, name](const std::vector<std::string>& texts) {
-                                for (const std::string& text : texts) given.emplace_back(name, text);
-                              },
-                              setting.help)
-                        : parser.add_option_function<std::string>(
-                              "--" + name, [&given, name](const std::string& text) { given.emplace_back(name, text); },
-                              setting.help);
-    if (setting.is_list) added->expected(1)->take_all();
-    added->check(CLI::Validator(check, ""))
-        ->type_name(setting.kind == SettingKind::kChoice ? joined(setting.choices, "|") : type)
-        ->default_str(value)
-        ->group(setting.group);
+    const std::string name = setting.name;
+    CLI::Option* const added = add_row<CompareOptions>(
+        parser, "--" + name, setting, defaults,
+        [&given, name](const std::string& text) { given.emplace_back(name, text); }, setting.is_list);
+    if (setting.is_named) added->type_name("NAME=SELECTION");
   }
 }
 
@@ -174,37 +153,15 @@ void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, boo
   const PotentialOptions defaults = make_potential_options(PotentialMethod::kPme, {}, PmeOptions().temperature_K);
   for (const PotentialSetting& setting : potential_settings()) {
     const bool is_pb = setting.of.front() == PotentialMethod::kPoissonBoltzmann;
-    const std::string name = of_maps ? setting.map_option() : setting.option;
-    const std::string group = is_pb                                         ? "Poisson-Boltzmann (pb)"
-                              : setting.of.front() == PotentialMethod::kPme ? "Particle-mesh Ewald (pme)"
-                                                                            : "Coulomb's law (coulomb)";
-    const std::string words = of_maps && setting.key == "spline" ? "--spline,--order" : "--" + name;
-    const std::string key = setting.option;
-    if (setting.kind == SettingKind::kBoolean) {
-      parser
-          .add_flag_callback(
-              words, [&given, key] { given.emplace_back(key, "1"); }, setting.help)
-          ->group(group);
-      continue;
-    }
-    const auto check = [&setting](const std::string& text) {
-      PotentialOptions scratch;
-      try {
-        setting.set(scratch, text);
-      } catch (const InputError& error) {
-        return without_name(error, setting.option);
-      }
-      return std::string();
-    };
-    parser
-        .add_option_function<std::string>(
-            words, [&given, key](const std::string& text) { given.emplace_back(key, text); }, setting.help)
-        ->check(CLI::Validator(check, ""))
-        ->type_name(setting.kind == SettingKind::kChoice ? joined(setting.choices, "|")
-                    : setting.kind == SettingKind::kText ? "TEXT"
-                                                         : "NUMBER")
-        ->default_str(setting.get(defaults))
-        ->group(group);
+    const std::string words = of_maps && setting.key == "spline"
+                                  ? "--spline,--order"
+                                  : "--" + (of_maps ? setting.map_option() : setting.name);
+    const std::string name = setting.name;
+    add_row<PotentialOptions>(parser, words, setting, defaults,
+                              [&given, name](const std::string& text) { given.emplace_back(name, text); })
+        ->group(is_pb                                         ? "Poisson-Boltzmann (pb)"
+                : setting.of.front() == PotentialMethod::kPme ? "Particle-mesh Ewald (pme)"
+                                                              : "Coulomb's law (coulomb)");
   }
 }
 

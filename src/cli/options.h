@@ -33,6 +33,54 @@ std::unique_ptr<Engine> make_engine(const DeviceArguments& arguments);
 void add_structure_options(CLI::App& parser, StructureOptions& options);
 /// --plugins, of commands that read trajectories.
 void add_plugins_option(CLI::App& parser, std::string& folder, const std::string& group);
+/// What help calls the value of an option.
+std::string type_of(SettingKind kind, const std::vector<std::string>& choices, bool is_file);
+/// What is wrong with a value that `set` refuses, without the option's name, which the parser puts before it.
+std::string refusal(const std::function<void()>& set, const std::string& name);
+/// "Do not reuse the cache" of "Reuse the cache".
+std::string negated(std::string help);
+
+/// Adds a row as the option `words`; a boolean one as a flag, `--no-name` if it is on by default. A value is checked
+/// during parsing, so that the message names the option.
+/// @param take gets the texts, each by itself where `is_list`, whose option may be given several times
+template <typename Options>
+CLI::Option* add_row(CLI::App& parser, const std::string& words, const OptionRow<Options>& row, const Options& defaults,
+                     const std::function<void(const std::string&)>& take, bool is_list = false) {
+  const std::string value = row.get(defaults);
+  if (row.kind == SettingKind::kBoolean) {
+    const bool on = value == "1";
+    return parser
+        .add_flag_callback(
+            on ? "--no-" + words.substr(2) : words, [take, on] { take(on ? "0" : "1"); },
+            on ? negated(row.help) : row.help)
+        ->group(row.group);
+  }
+  CLI::Option* const added = is_list ? parser.add_option_function<std::vector<std::string>>(
+                                           words,
+                                           [take](const std::vector<std::string>& texts) {
+                                             for (const std::string& text : texts) take(text);
+                                           },
+                                           row.help)
+                                     : parser.add_option_function<std::string>(words, take, row.help);
+  if (is_list) added->expected(1)->take_all();
+  const auto check = [&row](const std::string& text) {
+    Options scratch;
+    return refusal([&] { row.set(scratch, text); }, row.name);
+  };
+  return added->check(CLI::Validator(check, ""))
+      ->type_name(type_of(row.kind, row.choices, row.is_file))
+      ->default_str(value)
+      ->group(row.group);
+}
+
+/// Adds the options of a study, which are set as they are read.
+template <typename Study>
+void add_rows(CLI::App& parser, const std::vector<OptionRow<Study>>& rows, Study& study) {
+  for (const OptionRow<Study>& row : rows)
+    add_row<Study>(parser, "--" + row.name, row, study,
+                   [&row, &study](const std::string& text) { row.set(study, text); });
+}
+
 /// The given settings of a comparison, by name, for make_options().
 using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 /// What a verb does decides which settings it has.

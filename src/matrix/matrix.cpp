@@ -136,6 +136,8 @@ Shard parse_shard(const std::string& text) {
   return {static_cast<int>(index), static_cast<int>(count)};
 }
 
+std::string to_string(const Shard& shard) { return std::to_string(shard.index) + "/" + std::to_string(shard.count); }
+
 std::vector<MatrixPair> matrix_pairs(std::size_t n_variants, const Shard& shard) {
   const std::size_t n = n_variants < 2 ? 0 : n_variants * (n_variants - 1);
   const auto count = static_cast<std::size_t>(shard.count), index = static_cast<std::size_t>(shard.index);

@@ -43,6 +43,7 @@ struct Shard {
 };
 /// Reads "2/8". @throws InputError
 Shard parse_shard(const std::string& text);
+std::string to_string(const Shard& shard);
 
 /// The ordered pairs of n variants without the diagonal, source by source. A shard is a contiguous part of them, so
 /// that one process, or two at a shard's border, prepares each source. Shards differ in size by at most one.

@@ -18,9 +18,6 @@ void add_input_settings(std::vector<Setting>& all);
 /// Those of the causes of a difference.
 void add_cause_settings(std::vector<Setting>& all);
 
-/// @throws InputError "--NAME: 'TEXT' is not ACCEPTED"
-[[noreturn]] void refuse_value(const std::string& name, const std::string& text, const std::string& accepted);
-
 /// The row, marked as one that the surface depends on.
 Setting of_surface(Setting row);
 

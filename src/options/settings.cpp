@@ -2,10 +2,7 @@
 #include "options/settings.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
-#include <locale>
 #include <sstream>
 
 #include "align/geometry/rigid_domains.h"
@@ -19,105 +16,27 @@
 namespace espdiff {
 namespace {
 
-/// Reads a number in the C locale, whatever locale the host program has set.
-template <typename Number>
-bool parse(const std::string& text, Number& value) {
-  std::istringstream in(text);
-  in.imbue(std::locale::classic());
-  return static_cast<bool>(in >> value) && (in >> std::ws).eof();
-}
-
-/// The shortest text that reads back as the same value.
-std::string written(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general).ptr};
-}
-std::string written(int value) { return std::to_string(value); }
-
-/// The range of numbers that a setting accepts.
-struct Range {
-  double low;
-  bool low_included;
-  const char* words;
-  double high = HUGE_VAL;  ///< included
-};
-constexpr Range kPositive{0, false, "a positive number"}, kNotNegative{0, true, "a number of 0 or more"},
-    kShare{0, true, "a number from 0 to 1", 1}, kCount{0, true, "a whole number of 0 or more"};
-
-bool within(const Range& range, double value) {
-  return std::isfinite(value) && (range.low_included ? value >= range.low : value > range.low) && value <= range.high;
-}
+using Rows = RowsOf<CompareOptions>;
 
 /// Headings of settings that only one method reads.
 constexpr const char* kMorphGroup = "Mapping by morph";
 constexpr const char* kDeformGroup = "Mapping by deform";
 
-/// A numeric setting; `at` finds it in the options.
-template <typename At>
-Setting number(const std::string& name, const std::string& group, Range range, At at, const std::string& help) {
-  Setting s{name, group, SettingKind::kNumber, {}, help, false, nullptr, nullptr};
-  s.set = [name, range, at](CompareOptions& o, const std::string& text) {
-    double value = 0;
-    if (!parse(text, value) || !within(range, value)) refuse_value(name, text, range.words);
-    at(o) = value;
-  };
-  s.get = [at](const CompareOptions& o) { return written(at(o)); };
-  return s;
-}
-
-template <typename At>
-Setting count(const std::string& name, const std::string& group, At at, const std::string& help) {
-  Setting s{name, group, SettingKind::kInteger, {}, help, false, nullptr, nullptr};
-  s.set = [name, at](CompareOptions& o, const std::string& text) {
-    int value = 0;
-    if (!parse(text, value) || value < 0) refuse_value(name, text, kCount.words);
-    at(o) = value;
-  };
-  s.get = [at](const CompareOptions& o) { return written(at(o)); };
-  return s;
-}
-
-template <typename At>
-Setting boolean(const std::string& name, const std::string& group, At at, const std::string& help) {
-  Setting s{name, group, SettingKind::kBoolean, {}, help, false, nullptr, nullptr};
-  s.set = [name, at](CompareOptions& o, const std::string& text) {
-    if (text != "0" && text != "1") refuse_value(name, text, "0 or 1");
-    at(o) = text == "1";
-  };
-  s.get = [at](const CompareOptions& o) { return at(o) ? "1" : "0"; };
-  return s;
-}
-
-/// A setting with named values.
-template <typename Set, typename Get>
-Setting choice(const std::string& name, const std::string& group, std::vector<std::string> choices, Set set, Get get,
-               const std::string& help) {
-  std::string list;
-  for (std::size_t i = 0; i < choices.size(); ++i)
-    list += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + choices[i];
-  Setting s{name, group, SettingKind::kChoice, choices, help, false, nullptr, get};
-  s.set = [=](CompareOptions& o, const std::string& text) {
-    if (std::find(choices.begin(), choices.end(), text) == choices.end()) refuse_value(name, text, list);
-    set(o, text);
-  };
-  return s;
-}
-
 void add_surface_settings(std::vector<Setting>& all) {
   const std::string group = "Surface";
-  all.push_back(of_surface(number(
+  all.push_back(of_surface(Rows::number(
       "grid-spacing", group, kPositive, [](auto& o) -> auto& { return o.surface.grid_spacing_A; },
       "Lattice spacing of the density, Angstrom")));
-  all.push_back(of_surface(number(
+  all.push_back(of_surface(Rows::number(
       "radius-scale", group, kPositive, [](auto& o) -> auto& { return o.surface.radius_scale; },
       "Width of each atom's Gaussian in units of its radius")));
-  all.push_back(of_surface(number(
+  all.push_back(of_surface(Rows::number(
       "isovalue", group, kPositive, [](auto& o) -> auto& { return o.surface.isovalue; },
       "Density at which the surface lies; higher is tighter")));
-  all.push_back(of_surface(boolean(
+  all.push_back(of_surface(Rows::boolean(
       "cavities", group, [](auto& o) -> auto& { return o.surface.cavities; },
       "Keep closed cavities; they are removed and counted by default")));
-  all.push_back(of_surface(boolean(
+  all.push_back(of_surface(Rows::boolean(
       "project", group, [](auto& o) -> auto& { return o.surface.project; },
       "Project vertices onto the exact isosurface")));
 }
@@ -126,8 +45,8 @@ void add_surface_settings(std::vector<Setting>& all) {
 template <typename Iteration, typename Displacement>
 void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix, const std::string& group,
                             Iteration iteration, Displacement min_displacement) {
-  const auto add = [&](const char* name, Range range, double DeformOptions::*member, const char* help) {
-    all.push_back(number(
+  const auto add = [&](const char* name, NumberRange range, double DeformOptions::*member, const char* help) {
+    all.push_back(Rows::number(
         prefix + name, group, range, [ iteration, member ](auto& o) -> auto& { return iteration(o).*member; }, help));
   };
   add("sigma", kPositive, &DeformOptions::sigma, "Step scale");
@@ -135,56 +54,58 @@ void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix
   add("rho", kShare, &DeformOptions::rho, "Weight of rigidity against tension, 0 to 1");
   add("tangential-gain", kNotNegative, &DeformOptions::tangential_gain,
       "Multiplies the internal force, which moves vertices along the surface");
-  all.push_back(count(
-      prefix + "max-iterations", group, [iteration](auto& o) -> auto& { return iteration(o).max_iterations; },
+  all.push_back(Rows::count(
+      prefix + "max-iterations", group,
+      kFromZero, [iteration](auto& o) -> auto& { return iteration(o).max_iterations; },
       "Maximum number of iterations"));
-  all.push_back(number(prefix + "min-displacement", group, kNotNegative, min_displacement,
-                       "Converged when the mean displacement of an iteration falls below this many grid spacings"));
+  all.push_back(
+      Rows::number(prefix + "min-displacement", group, kNotNegative, min_displacement,
+                   "Converged when the mean displacement of an iteration falls below this many grid spacings"));
 }
 
 void add_morph_settings(std::vector<Setting>& all) {
-  all.push_back(number(
-      "max-step", kMorphGroup, Range{0.001, true, "a number of 0.001 or more"},
+  all.push_back(Rows::number(
+      "max-step", kMorphGroup, NumberRange{0.001, true, "a number of 0.001 or more"},
       [](auto& o) -> auto& { return o.morph.max_step_A; }, "Maximum movement of an atom per step, Angstrom"));
-  all.push_back(number(
+  all.push_back(Rows::number(
       "max-edge", kMorphGroup, kPositive, [](auto& o) -> auto& { return o.morph_max_edge; },
       "Split edges longer than this many grid spacings"));
-  all.push_back(number(
-      "max-stretch", kMorphGroup, Range{1, false, "a number above 1"},
+  all.push_back(Rows::number(
+      "max-stretch", kMorphGroup, NumberRange{1, false, "a number above 1"},
       [](auto& o) -> auto& { return o.morph.max_stretch; }, "Stretch of an edge at which the surface counts as torn"));
 }
 
 void add_mapping_settings(std::vector<Setting>& all) {
   const std::string group = "Mapping";
-  all.push_back(choice(
+  all.push_back(Rows::choice(
       "method", group, {"morph", "deform"},
       [](CompareOptions& o, const std::string& text) { o.method = parse_method(text); },
       [](const CompareOptions& o) { return to_string(o.method); },
       "Mapping method: follow the moving atoms (morph), or forces in a field (deform)"));
-  all.push_back(boolean(
+  all.push_back(Rows::boolean(
       "round-trip", group, [](auto& o) -> auto& { return o.round_trip; },
       "Also map back and report the round-trip error; doubles the time"));
   add_morph_settings(all);
-  all.push_back(choice(
+  all.push_back(Rows::choice(
       "deform-field", kDeformGroup, {"density", "distance", "gvf", "gvf2"},
       [](CompareOptions& o, const std::string& text) { o.field = parse_deform_field(text); },
       [](const CompareOptions& o) { return to_string(o.field); },
       "Field that moves the surface: density, distance (far from the target), or gradient vector flow of the target "
       "(gvf) or of both surfaces (gvf2)"));
   all.back().file_key = "field";
-  all.push_back(number(
+  all.push_back(Rows::number(
       "distance-threshold", kDeformGroup, kNotNegative, [](auto& o) -> auto& { return o.distance_threshold_A; },
       "Distance beyond which the distance field is used, Angstrom"));
-  all.push_back(number(
+  all.push_back(Rows::number(
       "gvf-weight", kDeformGroup, kPositive, [](auto& o) -> auto& { return o.flow.weight_A2; },
       "Weight of smoothness in the gradient vector flow (mu), Angstrom^2"));
-  all.push_back(number(
+  all.push_back(Rows::number(
       "gvf-tolerance", kDeformGroup, kPositive, [](auto& o) -> auto& { return o.flow.tolerance; },
       "Converged when a sweep changes no vector by more than this; vectors at the surface have length 1"));
-  all.push_back(count(
-      "gvf-max-sweeps", kDeformGroup, [](auto& o) -> auto& { return o.flow.max_sweeps; },
+  all.push_back(Rows::count(
+      "gvf-max-sweeps", kDeformGroup, kFromZero, [](auto& o) -> auto& { return o.flow.max_sweeps; },
       "Maximum number of sweeps; 1 or more"));
-  all.push_back(choice(
+  all.push_back(Rows::choice(
       "interpolation", kDeformGroup, {"trilinear", "tricubic"},
       [](CompareOptions& o, const std::string& text) {
         o.deform.interpolation = o.regularize.interpolation = parse_interpolation(text);
@@ -193,31 +114,26 @@ void add_mapping_settings(std::vector<Setting>& all) {
         return o.deform.interpolation == Interpolation::kTricubic ? "tricubic" : "trilinear";
       },
       "Interpolation of the field"));
-  all.push_back(choice(
+  all.push_back(Rows::choice(
       "rest-shape", kDeformGroup, {"source", "none"},
       [](CompareOptions& o, const std::string& text) { o.deform.rest_shape = text == "source"; },
       [](const CompareOptions& o) { return o.deform.rest_shape ? "source" : "none"; },
       "Shape that the internal force restores: the source's, or none (equal edges)"));
-  all.push_back(boolean(
+  all.push_back(Rows::boolean(
       "subdivide", kDeformGroup, [](auto& o) -> auto& { return o.subdivide; },
       "Split stretched edges and iterate again, which reaches into crevices"));
   add_iteration_settings(
       all, "", kDeformGroup, [](auto& o) -> auto& { return o.deform; },
       [](auto& o) -> auto& { return o.deform_min_displacement; });
-  Setting thesis{kThesisSetting,
-                 kDeformGroup,
-                 SettingKind::kBoolean,
-                 {},
-                 "The thesis' original iteration: tangential gains 1, rest shape none, smallest displacements 0.001, "
-                 "cavities, no projection. Other settings given still apply",
-                 true,
-                 nullptr,
-                 nullptr};
-  thesis.set = [](CompareOptions&, const std::string& text) {
-    if (text != "0" && text != "1") refuse_value(kThesisSetting, text, "0 or 1");
-  };
-  thesis.get = [](const CompareOptions&) { return "0"; };
-  all.push_back(thesis);
+  all.push_back(of_surface(Rows::parsed(
+      kThesisSetting, kDeformGroup,
+      [](CompareOptions&, const std::string& text) {
+        if (text != "0" && text != "1") refuse_value(kThesisSetting, text, "0 or 1");
+      },
+      [](const CompareOptions&) { return "0"; },
+      "The thesis' original iteration: tangential gains 1, rest shape none, smallest displacements 0.001, "
+      "cavities, no projection. Other settings given still apply")));
+  all.back().kind = SettingKind::kBoolean;
 }
 
 /// Distances of 0 to 20 A, each once: "0" or "0,1.4,3".
@@ -228,7 +144,7 @@ std::vector<double> parse_offsets(const std::string& name, const std::string& te
   std::istringstream list(text);
   for (std::string part; std::getline(list, part, ',');) {
     double value = 0;
-    if (!parse(part, value) || !std::isfinite(value) || value < 0 || value > kMost_A)
+    if (!read_value(part, value) || !std::isfinite(value) || value < 0 || value > kMost_A)
       refuse_value(name, text, accepted);
     if (std::find(offsets.begin(), offsets.end(), value) != offsets.end())
       refuse_value(name, text, accepted + ", each once");
@@ -239,46 +155,35 @@ std::vector<double> parse_offsets(const std::string& name, const std::string& te
 }
 
 Setting offset_setting() {
-  Setting offset{
-      "offset",
-      "Potentials",
-      SettingKind::kText,
-      {},
+  Setting offset = Rows::parsed(
+      "offset", "Potentials",
+      [](CompareOptions& o, const std::string& text) { o.offsets_A = parse_offsets("offset", text); },
+      [](const CompareOptions& o) {
+        std::string text;
+        for (const double value : o.offsets_A) text += (text.empty() ? "" : ",") + written_value(value);
+        return text;
+      },
       "Distance outside both surfaces, along their normals, at which the potentials are read, Angstrom; a list "
-      "such as 0,1.4,3 gives the metrics at each, and vertices and residues have the first",
-      false,
-      nullptr,
-      nullptr};
-  offset.set = [](CompareOptions& o, const std::string& text) { o.offsets_A = parse_offsets("offset", text); };
-  offset.get = [](const CompareOptions& o) {
-    std::string text;
-    for (const double value : o.offsets_A) text += (text.empty() ? "" : ",") + written(value);
-    return text;
-  };
+      "such as 0,1.4,3 gives the metrics at each, and vertices and residues have the first");
   return offset;
 }
 
 /// A list of named fields; setting it again adds to it.
 Setting field_setting() {
-  Setting row{
-      "field",
-      "Fields",
-      SettingKind::kText,
-      {},
+  Setting row = Rows::parsed(
+      "field", "Fields",
+      [](CompareOptions& o, const std::string& text) {
+        if (text.empty()) return;  // the default: none
+        for (FieldRequest& request : parse_fields(text)) o.fields.push_back(std::move(request));
+      },
+      [](const CompareOptions& o) {
+        std::string text;
+        for (const FieldRequest& request : o.fields)
+          text += (text.empty() ? "" : "|") + request.name + "=" + request.what;
+        return text;
+      },
       "Compare another quantity of the surfaces, too, such as hydrophobicity or b-factor: NAME, or NAME=KIND and "
-      "NAME=KIND:ARGUMENT under a name of one's own; `fields` lists the kinds. Several may be given",
-      false,
-      nullptr,
-      nullptr};
-  row.set = [](CompareOptions& o, const std::string& text) {
-    if (text.empty()) return;  // the default: none
-    for (FieldRequest& request : parse_fields(text)) o.fields.push_back(std::move(request));
-  };
-  row.get = [](const CompareOptions& o) {
-    std::string text;
-    for (const FieldRequest& request : o.fields) text += (text.empty() ? "" : "|") + request.name + "=" + request.what;
-    return text;
-  };
+      "NAME=KIND:ARGUMENT under a name of one's own; `fields` lists the kinds. Several may be given");
   row.is_list = row.is_named = true;
   row.file_key = "fields";
   return row;
@@ -286,25 +191,19 @@ Setting field_setting() {
 
 /// A list of fields with thresholds; setting it again adds to it.
 Setting patches_of_setting() {
-  Setting row{
-      "patches-of",
-      "Fields",
-      SettingKind::kText,
-      {},
+  Setting row = Rows::parsed(
+      "patches-of", "Fields",
+      [](CompareOptions& o, const std::string& text) {
+        for (PatchesRequest& request : parse_patches_of(text)) o.patches_of.push_back(std::move(request));
+      },
+      [](const CompareOptions& o) {
+        std::string text;
+        for (const PatchesRequest& request : o.patches_of) text += (text.empty() ? "" : ",") + to_string(request);
+        return text;
+      },
       "Find the connected areas of each state beyond a threshold of a field, and what became of each in the other "
       "state: FIELD>T, FIELD<T or FIELD>T<U (quoted in a shell); potential alone means potential>1<-1. Several may be "
-      "given",
-      false,
-      nullptr,
-      nullptr};
-  row.set = [](CompareOptions& o, const std::string& text) {
-    for (PatchesRequest& request : parse_patches_of(text)) o.patches_of.push_back(std::move(request));
-  };
-  row.get = [](const CompareOptions& o) {
-    std::string text;
-    for (const PatchesRequest& request : o.patches_of) text += (text.empty() ? "" : ",") + to_string(request);
-    return text;
-  };
+      "given");
   row.is_list = true;
   return row;
 }
@@ -334,40 +233,35 @@ constexpr SettingLimits kLimits[] = {{"grid-spacing", 0.001, 20},
 
 std::vector<Setting> make_settings() {
   std::vector<Setting> all;
-  all.push_back(choice(
+  all.push_back(Rows::choice(
       "align", "Molecules", {"all", "backbone", "ca", "none"},
       [](CompareOptions& o, const std::string& text) { o.align = parse_align_atoms(text); },
       [](const CompareOptions& o) { return to_string(o.align); },
       "Paired atoms to superpose; none compares the molecules as given"));
-  Setting domains{"domains",
-                  "Molecules",
-                  SettingKind::kText,
-                  {},
-                  "Motions that the mapping follows: none superposes the whole; with local, each residue follows the "
-                  "motion of its neighbourhood (morph only); as-needed maps with local once more where the mapping "
-                  "with none slips, and keeps the better one. Rigid domains, each superposed by itself: chains, auto "
-                  "(found by a search), or the source's residues, such as A:1-29,68-117/A:30-67",
-                  false,
-                  nullptr,
-                  nullptr};
-  domains.set = [](CompareOptions& o, const std::string& text) {
-    check_domains(text);
-    o.domains = text;
-  };
-  domains.get = [](const CompareOptions& o) { return o.domains; };
+  Setting domains = Rows::parsed(
+      "domains", "Molecules",
+      [](CompareOptions& o, const std::string& text) {
+        check_domains(text);
+        o.domains = text;
+      },
+      [](const CompareOptions& o) { return o.domains; },
+      "Motions that the mapping follows: none superposes the whole; with local, each residue follows the "
+      "motion of its neighbourhood (morph only); as-needed maps with local once more where the mapping "
+      "with none slips, and keeps the better one. Rigid domains, each superposed by itself: chains, auto "
+      "(found by a search), or the source's residues, such as A:1-29,68-117/A:30-67");
   all.push_back(domains);
   add_input_settings(all);
   all.push_back(field_setting());
   all.push_back(patches_of_setting());
   all.push_back(offset_setting());
-  all.push_back(of_surface(number(
+  all.push_back(of_surface(Rows::number(
       "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
       "Temperature of kT in potentials and units, K")));
-  all.push_back(boolean(
+  all.push_back(Rows::boolean(
       "trust-maps", "Potentials", [](auto& o) -> auto& { return o.trust_maps; },
       "Take given maps as they are: maps that do not fit the molecules' charges, or a potential in vacuum against one "
       "in water, give warnings and are not refused"));
-  all.push_back(number(
+  all.push_back(Rows::number(
       "require", "Verdict", kPositive, [](auto& o) -> auto& { return o.required_share; },
       "Share of the source's surface, and of the target's, that has to be trusted, 0 to 1; with less a result is NOT "
       "TRUSTWORTHY. Use 0.95 for an answer of yes or no"));
@@ -382,20 +276,16 @@ std::vector<Setting> make_settings() {
     for (const auto& [name, unit] : kUnits)
       if (setting.name == name) setting.unit = unit;
   }
-  set_limits(all, kLimits, &Setting::name);
+  set_limits(all, kLimits);
   return all;
 }
 
 }  // namespace
 
-void refuse_value(const std::string& name, const std::string& text, const std::string& accepted) {
-  throw InputError(option(name) + ": '" + text + "' is not " + accepted);
-}
-
 void check_limits(const SettingLimits& limits, const std::string& text, const std::string& value) {
   double number = 0;
-  if (!parse(value, number) || (number >= limits.least && number <= limits.most)) return;
-  refuse_value(limits.name, text, "a number from " + written(limits.least) + " to " + written(limits.most));
+  if (!read_value(value, number) || (number >= limits.least && number <= limits.most)) return;
+  refuse_value(limits.name, text, "a number from " + written_value(limits.least) + " to " + written_value(limits.most));
 }
 
 Setting of_surface(Setting row) {

@@ -7,31 +7,21 @@
 #include <utility>
 #include <vector>
 
+#include "options/option_row.h"
+
 namespace espdiff {
 
 struct CompareOptions;
 
-enum class SettingKind { kNumber, kInteger, kBoolean, kChoice, kText };
+/// One setting of a comparison.
+struct Setting : OptionRow<CompareOptions> {
+  Setting(OptionRow<CompareOptions> row) : OptionRow(std::move(row)) {}  // NOLINT(google-explicit-constructor)
 
-/// One setting. Its name is the option's: `--grid-spacing 1` on the command line, `-grid-spacing 1` in Tcl.
-struct Setting {
-  std::string name;
-  std::string group;  ///< heading under which manuals list it
-  SettingKind kind = SettingKind::kNumber;
-  std::vector<std::string> choices;  ///< of a choice
-  std::string help;
   bool of_surface = false;  ///< whether one molecule's surface depends on it
-  /// Sets the value from its text.
-  /// @throws InputError naming the setting, the text and the accepted values
-  std::function<void(CompareOptions&, const std::string&)> set;
-  /// The value as a text that set() accepts.
-  std::function<std::string(const CompareOptions&)> get;
-  std::string unit = "";  ///< "A", "K", "A2": ends the name of its key in OUT.json
-  bool is_list = false;   ///< a text of several values, parted by commas; on the command line it may be repeated
-  bool is_file = false;   ///< the text names files, which are sought from the working folder
-  bool is_named = false;  ///< a list of NAME=TEXT, parted by `|`; in Tcl {NAME TEXT ...}
-
-  std::string file_key = "";  ///< its key in OUT.json where that is not made of its name
+  std::string unit;         ///< "A", "K", "A2": ends the name of its key in OUT.json
+  bool is_list = false;     ///< a text of several values, parted by commas; on the command line it may be repeated
+  bool is_named = false;    ///< a list of NAME=TEXT, parted by `|`; in Tcl {NAME TEXT ...}
+  std::string file_key;     ///< its key in OUT.json where that is not made of its name
 
   /// Its key in OUT.json: "grid_spacing_A".
   std::string key() const;
@@ -48,12 +38,12 @@ struct SettingLimits {
 /// @throws InputError naming the limits
 void check_limits(const SettingLimits& limits, const std::string& text, const std::string& value);
 
-/// Holds the settings of a table that have limits to them. @param name which of a row's names the limits give
+/// Holds the settings of a table that have limits to them.
 template <typename Row, std::size_t N>
-void set_limits(std::vector<Row>& rows, const SettingLimits (&all)[N], std::string Row::*name) {
+void set_limits(std::vector<Row>& rows, const SettingLimits (&all)[N]) {
   for (Row& row : rows) {
     for (const SettingLimits& limits : all) {
-      if (row.*name != limits.name) continue;
+      if (row.name != limits.name) continue;
       row.set = [set = row.set, get = row.get, limits](auto& options, const std::string& text) {
         set(options, text);
         check_limits(limits, text, get(options));

@@ -2,11 +2,8 @@
 #include "potential/potential_settings.h"
 
 #include <algorithm>
-#include <cmath>
-#include <sstream>
 
 #include "base/error.h"
-#include "io/text/text_cursor.h"
 #include "mapping/map_recipe.h"
 
 namespace espdiff {
@@ -15,188 +12,142 @@ namespace {
 using Methods = std::vector<PotentialMethod>;
 const Methods kPb{PotentialMethod::kPoissonBoltzmann}, kPme{PotentialMethod::kPme}, kCoulomb{PotentialMethod::kCoulomb};
 
-[[noreturn]] void refuse(const std::string& name, const std::string& text, const std::string& accepted) {
-  throw InputError(option(name) + ": '" + text + "' is not " + accepted);
-}
-
-std::string written(double value) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out << value;
-  return out.str();
-}
-
-/// A setting that is a number above 0, or with `zero` also 0; `at` finds it in the options.
-template <typename At>
-PotentialSetting number(const std::string& key, const std::string& name, const Methods& of, bool zero, At at,
-                        const std::string& help) {
-  PotentialSetting s{key, name, of, SettingKind::kNumber, {}, help, nullptr, nullptr};
-  s.set = [name, zero, at](PotentialOptions& o, const std::string& text) {
-    double value = 0;
-    if (!parse_number(text, value) || !std::isfinite(value) || (zero ? value < 0 : value <= 0))
-      refuse(name, text, zero ? "a number of 0 or more" : "a positive number");
-    at(o) = value;
-  };
-  s.get = [at](const PotentialOptions& o) { return written(at(o)); };
-  return s;
-}
-
-template <typename At>
-PotentialSetting boolean(const std::string& key, const std::string& name, const Methods& of, At at,
-                         const std::string& help) {
-  PotentialSetting s{key, name, of, SettingKind::kBoolean, {}, help, nullptr, nullptr};
-  s.set = [name, at](PotentialOptions& o, const std::string& text) {
-    if (text != "0" && text != "1") refuse(name, text, "0 or 1");
-    at(o) = text == "1";
-  };
-  s.get = [at](const PotentialOptions& o) { return at(o) ? "1" : "0"; };
-  return s;
-}
-
-/// A setting with named values, in the order of the choices.
-template <typename Value, typename At>
-PotentialSetting choice(const std::string& key, const std::string& name, const Methods& of,
-                        const std::vector<std::pair<std::string, Value>>& values, At at, const std::string& help) {
-  PotentialSetting s{key, name, of, SettingKind::kChoice, {}, help, nullptr, nullptr};
-  std::string list;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    s.choices.push_back(values[i].first);
-    list += (i == 0 ? "" : i + 1 == values.size() ? " or " : ", ") + values[i].first;
-  }
-  s.set = [=](PotentialOptions& o, const std::string& text) {
-    for (const auto& [word, value] : values) {
-      if (word != text) continue;
-      at(o) = value;
-      return;
-    }
-    refuse(name, text, list);
-  };
-  s.get = [=](const PotentialOptions& o) {
-    for (const auto& [word, value] : values) {
-      if (at(o) == value) return word;
-    }
-    return std::string();
-  };
-  return s;
-}
-
-template <typename At>
-PotentialSetting count(const std::string& key, const std::string& name, const Methods& of, At at,
-                       const std::string& help) {
-  PotentialSetting s{key, name, of, SettingKind::kInteger, {}, help, nullptr, nullptr};
-  s.set = [name, at](PotentialOptions& o, const std::string& text) {
-    long long value = 0;
-    constexpr long long kMost = 1000000;
-    if (!parse_integer(text, value) || value < 1 || value > kMost) refuse(name, text, "a whole number of 1 or more");
-    at(o) = static_cast<int>(value);
-  };
-  s.get = [at](const PotentialOptions& o) { return std::to_string(at(o)); };
-  return s;
-}
+using Rows = RowsOf<PotentialOptions>;
+constexpr NumberRange kFromOne{1, true, "a whole number of 1 or more", 1e6};
 
 void add_pb_settings(std::vector<PotentialSetting>& all) {
-  all.push_back(choice<bool>(
-      "equation", "pb", kPb, {{"linear", false}, {"nonlinear", true}}, [](auto& o) -> auto& { return o.pb.nonlinear; },
-      "The Poisson-Boltzmann equation, linearized or not; nonlinear for nucleic acids and other strong charges"));
-  all.push_back(number(
-      "ionic_strength", "ionic-strength", kPb, true, [](auto& o) -> auto& { return o.pb.ionic_strength; },
-      "Salt in the solvent, mol/l of singly charged ions; 0 for none"));
-  all.push_back(number(
-      "ion_radius", "ion-radius", kPb, true, [](auto& o) -> auto& { return o.pb.ion_radius_A; },
-      "Radius of the ions, Angstrom: none come nearer to an atom's sphere (Stern layer)"));
-  all.push_back(number(
-      "solute_dielectric", "solute-dielectric", kPb, false, [](auto& o) -> auto& { return o.pb.solute_dielectric; },
-      "Dielectric constant inside the molecule"));
-  all.push_back(number(
-      "solvent_dielectric", "solvent-dielectric", kPb, false, [](auto& o) -> auto& { return o.pb.solvent_dielectric; },
-      "Dielectric constant of the solvent; 78.54 is water at 298 K"));
-  all.push_back(choice<DielectricBoundary>(
-      "boundary", "dielectric-boundary", kPb,
-      {{"molecular", DielectricBoundary::kMolecular},
-       {"vdw", DielectricBoundary::kVanDerWaals},
-       {"gaussian", DielectricBoundary::kGaussian}},
-      [](auto& o) -> auto& { return o.pb.dielectric_boundary; },
-      "Where the molecule's dielectric ends: at the surface that a probe cannot cross (molecular), at the atoms' "
-      "spheres "
-      "(vdw), or nowhere: it changes smoothly with a Gaussian density (gaussian)"));
-  all.push_back(number(
-      "probe_radius", "probe-radius", kPb, true, [](auto& o) -> auto& { return o.pb.probe_radius_A; },
-      "Radius of the probe of the molecular boundary, Angstrom"));
-  all.push_back(choice<DielectricSmoothing>(
-      "smoothing", "dielectric-smoothing", kPb,
-      {{"edges", DielectricSmoothing::kEdges}, {"nine-point", DielectricSmoothing::kNinePoint}},
-      [](auto& o) -> auto& { return o.pb.smoothing; },
-      "How the boundary is laid on the grid: by where it cuts the edges, or as APBS' smol by nine samples, which errs "
-      "three times as much"));
-  all.push_back(number(
-      "gaussian_sigma", "gaussian-sigma", kPb, false, [](auto& o) -> auto& { return o.pb.gaussian_sigma; },
-      "Width of an atom's Gaussian over its radius, for the gaussian boundary"));
-  all.push_back(choice<FarBoundary>(
-      "far_boundary", "far-boundary", kPb,
-      {{"debye-hueckel", FarBoundary::kDebyeHueckel}, {"focus", FarBoundary::kFocus}},
-      [](auto& o) -> auto& { return o.pb.far_boundary; },
-      "Values on the grid's border: the sum of all charges' Debye-Hueckel potentials, or those of a grid of twice the "
-      "extent"));
-  all.push_back(number(
-      "spacing", "pb-spacing", kPb, false, [](auto& o) -> auto& { return o.pb_spacing_A; },
-      "Distance of the grid's points, Angstrom"));
-  all.push_back(number(
-      "padding", "pb-padding", kPb, false, [](auto& o) -> auto& { return o.pb_padding_A; },
-      "Space between the atoms' spheres and the grid's border, Angstrom"));
-  all.push_back(number(
-      "tolerance", "pb-tolerance", kPb, false, [](auto& o) -> auto& { return o.pb.tolerance; },
-      "Residual at which the iteration ends, relative to the right-hand side"));
-  all.push_back(count(
-      "max_cycles", "pb-max-cycles", kPb, [](auto& o) -> auto& { return o.pb.max_cycles; },
-      "Cycles of the iteration at most; more are an error"));
+  all.push_back(
+      {"equation", kPb,
+       Rows::choice_of<bool>(
+           "pb", "", {{"linear", false}, {"nonlinear", true}}, [](auto& o) -> auto& { return o.pb.nonlinear; },
+           "The Poisson-Boltzmann equation, linearized or not; nonlinear for nucleic acids and other strong charges")});
+  all.push_back({"ionic_strength", kPb,
+                 Rows::number(
+                     "ionic-strength", "", kNotNegative, [](auto& o) -> auto& { return o.pb.ionic_strength; },
+                     "Salt in the solvent, mol/l of singly charged ions; 0 for none")});
+  all.push_back({"ion_radius", kPb,
+                 Rows::number(
+                     "ion-radius", "", kNotNegative, [](auto& o) -> auto& { return o.pb.ion_radius_A; },
+                     "Radius of the ions, Angstrom: none come nearer to an atom's sphere (Stern layer)")});
+  all.push_back({"solute_dielectric", kPb,
+                 Rows::number(
+                     "solute-dielectric", "", kPositive, [](auto& o) -> auto& { return o.pb.solute_dielectric; },
+                     "Dielectric constant inside the molecule")});
+  all.push_back({"solvent_dielectric", kPb,
+                 Rows::number(
+                     "solvent-dielectric", "", kPositive, [](auto& o) -> auto& { return o.pb.solvent_dielectric; },
+                     "Dielectric constant of the solvent; 78.54 is water at 298 K")});
+  all.push_back(
+      {"boundary", kPb,
+       Rows::choice_of<DielectricBoundary>(
+           "dielectric-boundary", "",
+           {{"molecular", DielectricBoundary::kMolecular},
+            {"vdw", DielectricBoundary::kVanDerWaals},
+            {"gaussian", DielectricBoundary::kGaussian}},
+           [](auto& o) -> auto& { return o.pb.dielectric_boundary; },
+           "Where the molecule's dielectric ends: at the surface that a probe cannot cross (molecular), at the atoms' "
+           "spheres "
+           "(vdw), or nowhere: it changes smoothly with a Gaussian density (gaussian)")});
+  all.push_back({"probe_radius", kPb,
+                 Rows::number(
+                     "probe-radius", "", kNotNegative, [](auto& o) -> auto& { return o.pb.probe_radius_A; },
+                     "Radius of the probe of the molecular boundary, Angstrom")});
+  all.push_back({"smoothing", kPb,
+                 Rows::choice_of<DielectricSmoothing>(
+                     "dielectric-smoothing", "",
+                     {{"edges", DielectricSmoothing::kEdges}, {"nine-point", DielectricSmoothing::kNinePoint}},
+                     [](auto& o) -> auto& { return o.pb.smoothing; },
+                     "How the boundary is laid on the grid: by where it cuts the edges, or as APBS' smol by nine "
+                     "samples, which errs "
+                     "three times as much")});
+  all.push_back({"gaussian_sigma", kPb,
+                 Rows::number(
+                     "gaussian-sigma", "", kPositive, [](auto& o) -> auto& { return o.pb.gaussian_sigma; },
+                     "Width of an atom's Gaussian over its radius, for the gaussian boundary")});
+  all.push_back(
+      {"far_boundary", kPb,
+       Rows::choice_of<FarBoundary>(
+           "far-boundary", "", {{"debye-hueckel", FarBoundary::kDebyeHueckel}, {"focus", FarBoundary::kFocus}},
+           [](auto& o) -> auto& { return o.pb.far_boundary; },
+           "Values on the grid's border: the sum of all charges' Debye-Hueckel potentials, or those of a grid of twice "
+           "the "
+           "extent")});
+  all.push_back({"spacing", kPb,
+                 Rows::number(
+                     "pb-spacing", "", kPositive, [](auto& o) -> auto& { return o.pb_spacing_A; },
+                     "Distance of the grid's points, Angstrom")});
+  all.push_back({"padding", kPb,
+                 Rows::number(
+                     "pb-padding", "", kPositive, [](auto& o) -> auto& { return o.pb_padding_A; },
+                     "Space between the atoms' spheres and the grid's border, Angstrom")});
+  all.push_back({"tolerance", kPb,
+                 Rows::number(
+                     "pb-tolerance", "", kPositive, [](auto& o) -> auto& { return o.pb.tolerance; },
+                     "Residual at which the iteration ends, relative to the right-hand side")});
+  all.push_back({"max_cycles", kPb,
+                 Rows::count(
+                     "pb-max-cycles", "", kFromOne, [](auto& o) -> auto& { return o.pb.max_cycles; },
+                     "Cycles of the iteration at most; more are an error")});
 }
 
 void add_pme_settings(std::vector<PotentialSetting>& all) {
-  all.push_back(choice<PmePart>(
-      "part", "pme-part", kPme, {{"full", PmePart::kFull}, {"smooth", PmePart::kSmooth}},
-      [](auto& o) -> auto& { return o.pme.part; },
-      "Which part of Ewald's sum: full is the potential of point charges; smooth leaves out what is nearer than about "
-      "1 / Ewald factor, as PMEPot does. Surfaces take full, averages over frames smooth"));
-  PotentialSetting grid{"grid", "pme-grid", kPme, SettingKind::kText, {}, "", nullptr, nullptr};
-  grid.help = "Grid: a resolution below 8 Angstrom, a number of points from 8 on, or three";
-  grid.set = [](PotentialOptions& o, const std::string& text) { o.grid = parse_grid_choice(text); };
-  grid.get = [](const PotentialOptions& o) {
-    if (o.grid.size[0] == 0) return written(o.grid.resolution_A);
-    return std::to_string(o.grid.size[0]) + " " + std::to_string(o.grid.size[1]) + " " + std::to_string(o.grid.size[2]);
-  };
-  all.push_back(grid);
-  all.push_back(number(
-      "ewaldfactor", "ewaldfactor", kPme, false, [](auto& o) -> auto& { return o.pme.ewald_factor; },
-      "Smearing of the charges in the smooth part, 1/Angstrom: Gaussians of variance 1 / (2 f^2)"));
-  all.push_back(count(
-      "spline", "pme-spline", kPme, [](auto& o) -> auto& { return o.pme.order; }, "Order of the B-splines, 4 to 8"));
-  all.push_back(choice<Precision>(
-      "precision", "pme-precision", kPme, {{"single", Precision::kSingle}, {"double", Precision::kDouble}},
-      [](auto& o) -> auto& { return o.pme.precision; }, "Precision of the sums"));
-  all.push_back(boolean(
-      "compatible", "pme-compatible", kPme, [](auto& o) -> auto& { return o.pme.compatible; },
-      "PMEPot's numbers: its grid sizes, squared spline factor, whole-number volume, smooth part, linear samples"));
-  PotentialSetting pad{"pad", "pme-pad", kPme, SettingKind::kText, {}, "", nullptr, nullptr};
-  pad.help =
-      "A box around the atoms instead of a cell, wider by so much on each side, Angstrom; 10 where no cell is known";
-  pad.set = [](PotentialOptions& o, const std::string& text) {
-    double value = 0;
-    if (!parse_number(text, value) || !(value >= 0) || !std::isfinite(value))
-      refuse("pme-pad", text, "a number of 0 or more");
-    o.pad_A = value;
-  };
-  pad.get = [](const PotentialOptions& o) { return o.pad_A ? written(*o.pad_A) : std::string(); };
-  all.push_back(pad);
+  all.push_back({"part", kPme,
+                 Rows::choice_of<PmePart>(
+                     "pme-part", "", {{"full", PmePart::kFull}, {"smooth", PmePart::kSmooth}},
+                     [](auto& o) -> auto& { return o.pme.part; },
+                     "Which part of Ewald's sum: full is the potential of point charges; smooth leaves out what is "
+                     "nearer than about "
+                     "1 / Ewald factor, as PMEPot does. Surfaces take full, averages over frames smooth")});
+  all.push_back(
+      {"grid", kPme,
+       Rows::parsed(
+           "pme-grid", "", [](PotentialOptions& o, const std::string& text) { o.grid = parse_grid_choice(text); },
+           [](const PotentialOptions& o) {
+             if (o.grid.size[0] == 0) return written_value(o.grid.resolution_A);
+             return std::to_string(o.grid.size[0]) + " " + std::to_string(o.grid.size[1]) + " " +
+                    std::to_string(o.grid.size[2]);
+           },
+           "Grid: a resolution below 8 Angstrom, a number of points from 8 on, or three")});
+  all.push_back({"ewaldfactor", kPme,
+                 Rows::number(
+                     "ewaldfactor", "", kPositive, [](auto& o) -> auto& { return o.pme.ewald_factor; },
+                     "Smearing of the charges in the smooth part, 1/Angstrom: Gaussians of variance 1 / (2 f^2)")});
+  all.push_back({"spline", kPme,
+                 Rows::count(
+                     "pme-spline", "", kFromOne, [](auto& o) -> auto& { return o.pme.order; },
+                     "Order of the B-splines, 4 to 8")});
+  all.push_back({"precision", kPme,
+                 Rows::choice_of<Precision>(
+                     "pme-precision", "", {{"single", Precision::kSingle}, {"double", Precision::kDouble}},
+                     [](auto& o) -> auto& { return o.pme.precision; }, "Precision of the sums")});
+  all.push_back({"compatible", kPme,
+                 Rows::boolean(
+                     "pme-compatible", "", [](auto& o) -> auto& { return o.pme.compatible; },
+                     "PMEPot's numbers: its grid sizes, squared spline factor, whole-number volume, smooth part, "
+                     "linear samples")});
+  all.push_back({"pad", kPme,
+                 Rows::parsed(
+                     "pme-pad", "",
+                     [](PotentialOptions& o, const std::string& text) {
+                       double value = 0;
+                       if (!read_value(text, value) || !is_within(kNotNegative, value))
+                         refuse_value("pme-pad", text, kNotNegative.words);
+                       o.pad_A = value;
+                     },
+                     [](const PotentialOptions& o) { return o.pad_A ? written_value(*o.pad_A) : std::string(); },
+                     "A box around the atoms instead of a cell, wider by so much on each side, Angstrom; 10 where no "
+                     "cell is known")});
 }
 
 void add_coulomb_settings(std::vector<PotentialSetting>& all) {
-  all.push_back(number(
-      "dielectric", "dielectric", kCoulomb, false, [](auto& o) -> auto& { return o.coulomb.dielectric; },
-      "Dielectric constant everywhere; 1 is vacuum"));
-  all.push_back(boolean(
-      "distance_dependent", "distance-dependent", kCoulomb,
-      [](auto& o) -> auto& { return o.coulomb.distance_dependent; },
-      "The dielectric grows with the distance: dielectric times r in Angstrom (4 is ChimeraX's)"));
+  all.push_back({"dielectric", kCoulomb,
+                 Rows::number(
+                     "dielectric", "", kPositive, [](auto& o) -> auto& { return o.coulomb.dielectric; },
+                     "Dielectric constant everywhere; 1 is vacuum")});
+  all.push_back({"distance_dependent", kCoulomb,
+                 Rows::boolean(
+                     "distance-dependent", "", [](auto& o) -> auto& { return o.coulomb.distance_dependent; },
+                     "The dielectric grows with the distance: dielectric times r in Angstrom (4 is ChimeraX's)")});
 }
 
 /// As those of options/settings.cpp.
@@ -219,9 +170,9 @@ bool reads(const PotentialSetting& setting, PotentialMethod method) {
 }  // namespace
 
 std::string PotentialSetting::map_option() const {
-  std::string name = of.front() == PotentialMethod::kPoissonBoltzmann ? option : key;
-  std::replace(name.begin(), name.end(), '_', '-');
-  return name;
+  std::string text = of.front() == PotentialMethod::kPoissonBoltzmann ? name : key;
+  std::replace(text.begin(), text.end(), '_', '-');
+  return text;
 }
 
 const std::vector<PotentialSetting>& potential_settings() {
@@ -230,7 +181,7 @@ const std::vector<PotentialSetting>& potential_settings() {
     add_pb_settings(made);
     add_pme_settings(made);
     add_coulomb_settings(made);
-    set_limits(made, kPotentialLimits, &PotentialSetting::option);
+    set_limits(made, kPotentialLimits);
     return made;
   }();
   return all;
@@ -239,7 +190,7 @@ const std::vector<PotentialSetting>& potential_settings() {
 const PotentialSetting& find_potential_setting(const std::string& name) {
   std::string keys;
   for (const PotentialSetting& setting : potential_settings()) {
-    if (setting.key == name || setting.option == name) return setting;
+    if (setting.key == name || setting.name == name) return setting;
     keys += (keys.empty() ? "" : ", ") + setting.key;
   }
   throw InputError("a potential has no option '" + name + "'; there are " + keys);
@@ -259,7 +210,7 @@ PotentialOptions make_potential_options(PotentialMethod method, const GivenPoten
     const bool is_lattice = setting.key == "grid" || setting.key == "pad";
     const bool read_here = on_lattice && is_lattice && method == PotentialMethod::kCoulomb;
     if (!reads(setting, method) && !read_here)
-      throw InputError(option(setting.option) + " is an option of the potential " + to_string(setting.of.front()) +
+      throw InputError(option(setting.name) + " is an option of the potential " + to_string(setting.of.front()) +
                        ", and the potential is " + to_string(method) + "; leave it out, or take the potential " +
                        to_string(setting.of.front()));
     setting.set(o, text);

@@ -2,7 +2,6 @@
 // the manuals.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,21 +11,13 @@
 
 namespace espdiff {
 
-/// One option of potentials.
-struct PotentialSetting {
-  /// In Tcl, `{map {pb KEY VALUE}}`.
-  std::string key;
-  /// The option of `compare`, `trajectory` and `matrix`, without dashes before it.
-  std::string option;
+/// One option of potentials. Its name is the option's of `compare`, `trajectory` and `matrix`.
+struct PotentialSetting : OptionRow<PotentialOptions> {
+  PotentialSetting(std::string tcl_key, std::vector<PotentialMethod> read_by, OptionRow<PotentialOptions> row)
+      : OptionRow(std::move(row)), key(std::move(tcl_key)), of(std::move(read_by)) {}
+
+  std::string key;                  ///< in Tcl, `{map {pb KEY VALUE}}`
   std::vector<PotentialMethod> of;  ///< the potentials that read it
-  SettingKind kind = SettingKind::kNumber;
-  std::vector<std::string> choices;  ///< of a choice
-  std::string help;                  ///< with the unit
-  /// Sets the value from a text.
-  /// @throws InputError that names the option, the text and what is accepted
-  std::function<void(PotentialOptions&, const std::string&)> set;
-  /// The value as a text for set(); empty if there is none.
-  std::function<std::string(const PotentialOptions&)> get;
 
   /// The option of `espdiff potential`, without dashes before it: PMEPot's name where PMEPot has one.
   std::string map_option() const;

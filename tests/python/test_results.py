@@ -49,7 +49,7 @@ def test_typed_options_follow_the_table():
 @pytest.mark.parametrize("call, text", [
     (lambda: espdiff.ensemble(["a", "b"]), r"groups: a list has no names; give \{\"wild\""),
     (lambda: espdiff.ensemble({"a": 3}), r"groups\['a'\]: a int is no list of replicates"),
-    (lambda: espdiff.ensemble({"a": ["b"]}, alpha="x"), "alpha: 'x' is not a number"),
+    (lambda: espdiff.ensemble({"a": ["b"]}, alpha="x"), "`alpha`: 'x' is not a number from 1e-06 to 0.5"),
     (lambda: espdiff.ensemble({"a": ["b"]}, resume="yes", output="c"), "resume: 'yes' is not True or False"),
     (lambda: espdiff.compare("a", "b", threads="two"), "threads: 'two' is not a whole number"),
     (lambda: espdiff.compare("a", "b", threads=True), "threads: True is not a whole number"),

@@ -10,6 +10,7 @@
 #include "cli/verbs.h"
 #include "cli/words/help.h"
 #include "engine/engine.h"
+#include "ensemble/ensemble_settings.h"
 #include "ensemble/ensemble_study.h"
 #include "ensemble/file/ensemble_file.h"
 #include "ensemble/result/write_ensemble.h"
@@ -24,7 +25,6 @@ struct EnsembleArguments {
   std::vector<std::string> charges;  ///< GROUP=FILE
   std::vector<std::string> maps;     ///< GROUP=PATTERN
   EnsembleStudy study;
-  std::string shard = "1/1", on_error = "stop", equilibration = "none", control = "tfce";
   bool quiet = false;
   DeviceArguments device;
   GivenSettings settings;
@@ -71,11 +71,7 @@ void name_inputs(const EnsembleArguments& a, EnsembleStudy& study) {
 
 int ensemble_verb(const EnsembleArguments& a, const Context& context) {
   EnsembleStudy study = a.study;
-  study.statistics.equilibration = parse_equilibration(a.equilibration);
-  study.statistics.control = a.control == "tfce" ? ErrorControl::kTfce : ErrorControl::kMaxT;
   study.options = ensemble_options(a.settings);
-  study.run.shard = parse_shard(a.shard);
-  study.run.skip_errors = a.on_error == "skip";
   name_inputs(a, study);
   const EnsembleAnswer answer = run_study(
       study, [&] { return make_engine(a.device); }, *context.progress,
@@ -119,88 +115,8 @@ void add_input_options(CLI::App& p, EnsembleArguments& a) {
        "VTI, cube). %d or %03d in the pattern stands for the frame's number in its replicate, from 0, "
        "{replicate} for the replicate's name. Without it, potentials are computed (--potential)")
       ->group(group);
-  p.add_option("--map-unit", inputs.maps.unit,
-               "Unit of these maps if the files do not give it: kT/e, mV, V, kcal/mol/e, hartree/e")
-      ->group(group);
-  p.add_option("--map-array", inputs.maps.array, "Array of VTI maps with several")->group(group);
-  p.add_option("--frames", inputs.frames,
-               "Frames of each replicate, from 0: all, begin:end or begin:step:end, as in `espdiff trajectory`")
-      ->capture_default_str()
-      ->group(group);
-  p.add_option("--template", inputs.template_text,
-               "The structure whose surface is mapped onto every frame. medoid: the frame nearest to all others (of at "
-               "most 200, evenly spread); medoid:GROUP: among the group's frames; a number: that frame, counted from 0 "
-               "through all groups; a structure file")
-      ->capture_default_str()
-      ->group(group);
-  add_plugins_option(p, inputs.plugins, group);
   add_structure_options(p, inputs.structure);
   add_computed_map_options(p, inputs.potential);
-}
-
-void add_run_options(CLI::App& p, EnsembleArguments& a) {
-  p.add_flag("--resume", a.study.run.resume,
-             "Go on with OUT.h5 of an interrupted run; a complete one gets new statistics")
-      ->group("Run");
-  p.add_flag("--overwrite", a.study.run.overwrite, "Replace OUT.h5 if it exists")->group("Run");
-  p.add_option("--on-error", a.on_error, "A frame that cannot be mapped stops the run, or has no values")
-      ->check(CLI::IsMember({"stop", "skip"}))
-      ->capture_default_str()
-      ->group("Run");
-  p.add_option("--shard", a.shard,
-               "Map part I of N of the frames, I/N, into OUT.shard-I-of-N.h5; `espdiff merge` merges the parts")
-      ->capture_default_str()
-      ->group("Run");
-}
-
-void add_statistics_options(CLI::App& p, EnsembleArguments& a) {
-  const char* const group = "Statistics";
-  p.add_option(
-       "--from", a.study.from,
-       "Compute the statistics of this complete OUT.h5 again; maps nothing, unless causes are asked for. Groups are "
-       "then of its replicates: --group NAME MEMBER..., each NAME, GROUP/NAME, or with some of its frames, w1@0:49 "
-       "(see --frames)")
-      ->group(group);
-  p.add_option("--alpha", a.study.statistics.alpha, "Significance level; intervals have the confidence 1 - alpha")
-      ->check(CLI::Range(1e-6, 0.5))
-      ->capture_default_str()
-      ->group(group);
-  p.add_flag("--check-template", a.study.check_template,
-             "Map the medoid of each group onto every frame as well, and tell how much of the answer stays. Takes as "
-             "long again for each group; files OUT.template-GROUP.h5")
-      ->group(group);
-  p.add_option(
-       "--regress", a.study.regress,
-       "FILE.csv:COLUMN: a value of each replicate, such as an activity, regressed on the surface, with the same "
-       "control of errors, and predicted from the other replicates (OUT.regression.csv). The table has the "
-       "columns replicate and COLUMN, and group unless names are unique")
-      ->group(group);
-  p.add_flag("--states", a.study.states,
-             "Compare every frame with every other one through the template (OUT.states.csv), and find the principal "
-             "components of the potential: scores in OUT.components.csv, modes as component_1 to 3 in OUT.vtp")
-      ->group(group);
-  p.add_option("--control", a.control, "The family-wise p that patches are made of")
-      ->check(CLI::IsMember({"tfce", "max-t"}))
-      ->capture_default_str()
-      ->group(group);
-  p.add_option("--equilibration", a.equilibration,
-               "Frames to cut off at the start of each replicate: none, a number, or auto, which leaves the most "
-               "effective samples of RMSD and mean potential")
-      ->capture_default_str()
-      ->group(group);
-  p.add_option("--most-missing", a.study.statistics.most_missing,
-               "A vertex without a counterpart in a larger share of a group's frames is not tested")
-      ->check(CLI::Range(0.0, 0.9))
-      ->capture_default_str()
-      ->group(group);
-  p.add_option("--permutations", a.study.statistics.test.max_permutations,
-               "Maximum number of permutations of labels; all are used if there are fewer")
-      ->check(CLI::Range(20, 1000000))
-      ->capture_default_str()
-      ->group(group);
-  p.add_option("--seed", a.study.statistics.test.seed, "Random seed; written into the result")
-      ->capture_default_str()
-      ->group(group);
 }
 
 }  // namespace
@@ -217,8 +133,7 @@ Verb add_ensemble(CLI::App& app) {
       "docs/ensembles.md explains them. Unlike in other commands, --max-step is 0.7 unless it is given.");
   add_input_options(*parser, *a);
   parser->add_option("-o,--output", a->study.run.output, "Prefix of the results")->required();
-  add_run_options(*parser, *a);
-  add_statistics_options(*parser, *a);
+  add_rows(*parser, ensemble_settings(), a->study);
   add_settings(*parser, a->settings, SettingsFor::kVariants);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");

@@ -12,6 +12,7 @@
 #include "engine/engine.h"
 #include "matrix/write_matrix.h"
 #include "options/options.h"
+#include "study/matrix_settings.h"
 #include "study/matrix_study.h"
 
 namespace espdiff::cli {
@@ -19,10 +20,9 @@ namespace {
 
 struct MatrixArguments {
   std::vector<std::string> files;
-  std::string list, groups, map_array, shard = "1/1", on_error = "stop", template_text;
-  std::size_t exact_sample = 6;
+  std::string list, groups, map_array;
   PotentialRequest potential;
-  MatrixRun run;
+  MatrixStudy study;
   bool quiet = false;
   StructureOptions structure;
   DeviceArguments device;
@@ -66,7 +66,7 @@ void print_template_work(const TemplateWork& work) {
 
 void print_report(const MatrixArguments& a, const Engine& engine, const MatrixReport& report) {
   if (report.matrix) {
-    print_matrix(std::cout, *report.matrix, metric_to_cluster_by(a.run, *report.matrix));
+    print_matrix(std::cout, *report.matrix, metric_to_cluster_by(a.study.run, *report.matrix));
   }
   const std::size_t n = report.n_pairs - report.n_resumed;
   std::cout << '\n';
@@ -86,17 +86,12 @@ void print_report(const MatrixArguments& a, const Engine& engine, const MatrixRe
   std::cout << '\n';
 }
 
-int matrix_verb(MatrixArguments& a, const Context& context) {
-  MatrixStudy study;
+int matrix_verb(const MatrixArguments& a, const Context& context) {
+  MatrixStudy study = a.study;
   study.options = make_options(a.settings);
   study.settings = a.settings;
   study.potential = a.potential;
-  study.template_text = a.template_text;
-  study.n_exact = a.exact_sample;
   study.structure = a.structure;
-  a.run.shard = parse_shard(a.shard);
-  a.run.skip_errors = a.on_error == "skip";
-  study.run = a.run;
   for (const VariantFiles& files : chosen_variants(a)) study.variants.push_back(item_of(a, files));
   study.run.read_files = {a.list, a.groups};
   const std::unique_ptr<Engine> engine = make_engine(a.device);
@@ -104,35 +99,6 @@ int matrix_verb(MatrixArguments& a, const Context& context) {
   context.progress->report("write", 1.0);
   if (!a.quiet) print_report(a, *engine, report);
   return 0;
-}
-
-void add_template_options(CLI::App& p, MatrixArguments& a) {
-  p.add_option(
-       "--template", a.template_text,
-       "Map the surface of one structure onto each variant, and compare all variants in its vertices: a mapping "
-       "for each variant instead of each pair, and differences of potentials only. medoid: the variant nearest "
-       "to all others; a label; a number from 0; a structure file. The potentials stay in OUT.h5")
-      ->group("Template");
-  p.add_option("--exact-sample", a.exact_sample,
-               "Pairs, chosen at random, that are compared by themselves as well, to tell how far the template's are "
-               "from exact ones; 0 for none")
-      ->capture_default_str()
-      ->group("Template");
-}
-
-void add_run_options(CLI::App& p, MatrixArguments& a) {
-  p.add_flag("--resume", a.run.resume, "Resume an interrupted run from its state file OUT.state")->group("Run");
-  p.add_flag("--overwrite", a.run.overwrite, "Start again and replace results and state files")->group("Run");
-  p.add_option("--on-error", a.on_error,
-               "A pair that cannot be compared stops the run, or is skipped and noted in the results")
-      ->check(CLI::IsMember({"stop", "skip"}))
-      ->capture_default_str()
-      ->group("Run");
-  p.add_option("--shard", a.shard,
-               "Compute part I of N of the pairs, I/N, into OUT.shard-I-of-N.state; `espdiff merge` merges the parts "
-               "together")
-      ->capture_default_str()
-      ->group("Run");
 }
 
 }  // namespace
@@ -146,17 +112,13 @@ Verb add_matrix(CLI::App& app) {
       "them.\nA list is a table of comma-separated values whose first row names its columns: structure, and optionally "
       "model, map,\nunit (of the map), label, group. Paths are relative to the list.");
   parser->add_option("VARIANT", a->files, "Structures: PQR, PDB or mmCIF; each model of a file is a variant");
-  parser->add_option("-o,--output", a->run.output, "Prefix of the results")->required();
+  parser->add_option("-o,--output", a->study.run.output, "Prefix of the results")->required();
   parser->add_option("--list", a->list, "Table of the variants, instead of files")->group("Molecules");
   parser->add_option("--groups", a->groups, "Table with the columns label and group")->group("Molecules");
-  parser->add_option("--cluster-by", a->run.cluster_by,
-                     "Metric for clustering (mean_abs_difference; without potentials "
-                     "mean_displacement_A)");
   add_structure_options(*parser, a->structure);
   add_computed_map_options(*parser, a->potential);
   parser->add_option("--map-array", a->map_array, "Array of VTI maps with several")->group("Potentials");
-  add_template_options(*parser, *a);
-  add_run_options(*parser, *a);
+  add_rows(*parser, matrix_settings(), a->study);
   add_settings(*parser, a->settings, SettingsFor::kVariants);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");

@@ -84,7 +84,7 @@ TypedWords with_options(TypedWords words, const std::vector<NamedOption>& option
 
 TypedWords without_potential(TypedWords words) {
   for (const PotentialSetting& setting : potential_settings())
-    words = without(words, {setting.option, "", setting.kind == SettingKind::kBoolean});
+    words = without(words, {setting.name, "", setting.kind == SettingKind::kBoolean});
   for (const char* const name : {"causes", "side-chains"}) words = without(words, {name, ""});
   words = without(words, {"scan", "", true});
   std::set<std::string> dropped = {"potential"};

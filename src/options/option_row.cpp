@@ -1,0 +1,57 @@
+// option_row.cpp: numbers and words of options as texts.
+#include "options/option_row.h"
+
+#include <charconv>
+#include <locale>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/message.h"
+
+namespace espdiff {
+namespace {
+
+template <typename Number>
+bool read_whole(const std::string& text, Number& value) {
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  return static_cast<bool>(in >> value) && (in >> std::ws).eof();
+}
+
+}  // namespace
+
+const char* to_string(SettingKind kind) {
+  switch (kind) {
+    case SettingKind::kNumber: return "number";
+    case SettingKind::kInteger: return "integer";
+    case SettingKind::kBoolean: return "boolean";
+    case SettingKind::kChoice: return "choice";
+    case SettingKind::kText: break;
+  }
+  return "text";
+}
+
+void refuse_value(const std::string& name, const std::string& text, const std::string& accepted) {
+  throw InputError(option(name) + ": '" + text + "' is not " + accepted);
+}
+
+bool read_value(const std::string& text, double& value) { return read_whole(text, value); }
+bool read_value(const std::string& text, long long& value) { return read_whole(text, value); }
+
+std::string written_value(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general).ptr};
+}
+
+std::string joined_choices(const std::vector<std::string>& words) {
+  std::string list;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+  return list;
+}
+
+bool is_within(const NumberRange& range, double value) {
+  return std::isfinite(value) && (range.low_included ? value >= range.low : value > range.low) && value <= range.high;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,14 @@
+// matrix_settings.h: the options of a matrix besides those of a comparison, once for the command line, Tcl and Python.
+#pragma once
+
+#include <vector>
+
+#include "options/option_row.h"
+#include "study/matrix_study.h"
+
+namespace espdiff {
+
+/// In the order of the manuals.
+const std::vector<OptionRow<MatrixStudy>>& matrix_settings();
+
+}  // namespace espdiff
