@@ -83,7 +83,7 @@ EnsemblePlan as_matrix(EnsemblePlan plan, std::size_t n_states) {
 int time_matrix(const std::string& path) {
   const EnsembleFile file(path, false);
   const double start = seconds();
-  const Matrix matrix = matrix_through_template(file, {});
+  const Matrix matrix = matrix_through_template(file, {}, {});
   const double made = seconds();
   std::printf("N x N       %7.1f s  %7.0f MB peak\n", made - start, peak_megabytes());
   write_matrix(path, matrix, find_metric("mean_abs_difference"));

@@ -126,6 +126,8 @@ namespace eval ::espdiff {
                 potentials. difference: target - source; sign: where it changed; slip: distance of each point from where its own atoms went; potential is for surfaces; path_length: length of each point's path,\
                 at least its displacement"
                 {auto difference sign source target potential slip displacement path_length none}}
+            {-field text "" "A field in the place of the potential: a name of `compute -field`; -color is difference,\
+                sign, source or target of it (of an ensemble also t)"}
             {-range range auto "Values at the ends of the colour scale; auto is symmetric about 0 and covers 90 % of\
                 the surface's points, as in the viewer and in pictures"}
             {-range-of text {} "One scale for a study: handles whose automatic ranges count too, so that -range auto is\

@@ -225,6 +225,11 @@ namespace eval ::espdiff {
             if {[dict get $replicate group] ni $groups} { lappend groups [dict get $replicate group] }
         }
         lassign $groups first second
+        if {[string match *:* $color]} {
+            set words [dict create source "mean, $first" target "mean, $second" difference "difference, $second - $first" \
+                t "Welch's t, $second - $first"]
+            return "[dict get [core::range $handle $color] label]: [dict get $words [lindex [split $color :] end]]"
+        }
         dict get [dict create source "Mean potential, $first" target "Mean potential, $second" \
             difference "Potential difference, $second - $first" t "Welch's t, $second - $first" none ""] $color
     }

@@ -52,7 +52,8 @@ namespace eval ::espdiff {
                 fail "espdiff draw: $other has its $color in '[dict get $range unit]', and $handle in '$unit'; results\
                     that share a scale have one unit"
             }
-            if {[dict get $range high] > [dict get $widest high]} { set widest $range }
+            dict set widest low [expr {min([dict get $widest low], [dict get $range low])}]
+            dict set widest high [expr {max([dict get $widest high], [dict get $range high])}]
         }
         return [list [dict get $widest low] [dict get $widest high]]
     }

@@ -118,7 +118,7 @@ Tcl_Obj* triangles(const Call& call) {
   DictReader reader(call.arguments[2], "options");
   const std::string color = reader.text("color", "none");
   const std::string which = reader.text("surface", "mapped");
-  const auto of_ensemble = ensemble_surface(handle, *object, reader.integer("patch", 0));
+  const auto of_ensemble = ensemble_surface(handle, *object, DrawnName(color).field, reader.integer("patch", 0));
   const DrawnSurface surface = of_ensemble ? *of_ensemble : drawn_surface(handle, *object, which);
   const double low = reader.number("low", -1), high = reader.number("high", 1);
   if (!(high > low))
@@ -153,7 +153,8 @@ Grid quantity_map(const Call& call) {
   const auto comparison = call.handles.finished_comparison(handle);
   const VertexQuantity quantity = vertex_quantity(handle, *comparison, name);
   Grid map = surface_quantity_map(comparison->result.surface, quantity.values, to_double(call.arguments[2], "spacing"));
-  map.unit = name == "displacement" || name == "slip" || name == "path_length" || name == "sign"
+  map.unit = name == "displacement" || name == "slip" || name == "path_length" || name == "sign" ||
+                     !DrawnName(name).field.empty()
                  ? PotentialUnit::kUnknown
                  : comparison->result.unit;
   map.name = "espdiff " + name + (quantity.unit.empty() ? "" : " (" + quantity.unit + ")");

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ensemble/ensemble_study.h"
@@ -21,8 +22,8 @@ struct EnsembleObject : Object {
   std::vector<std::string> warnings;   ///< of the design, before the run
   EnsembleAnswer answer;
   // Of drawings, made when first needed.
-  mutable std::vector<std::uint8_t> untested;       // [triangle]
-  mutable std::map<int, std::vector<float>> faded;  // by patch, 0 for all: [vertex]
+  mutable std::map<std::string, std::vector<std::uint8_t>> untested;  // by field, empty for the potential: [triangle]
+  mutable std::map<std::pair<std::string, int>, std::vector<float>> faded;  // by field and patch, 0 for all: [vertex]
 };
 
 }  // namespace espdiff::vmdplugin

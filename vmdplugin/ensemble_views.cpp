@@ -32,6 +32,23 @@ const EnsembleObject* answered(const std::string& handle, const Object& object) 
   return ensemble;
 }
 
+/// What is known of one of an ensemble's fields.
+struct FieldOfEnsemble {
+  const EnsembleFile& file;
+  const EnsembleResult& result;
+  std::string label;
+  bool is_signed = true;
+};
+
+FieldOfEnsemble field_of(const std::string& handle, const EnsembleAnswer& answer, const std::string& field) {
+  if (field.empty()) return {*answer.file, *answer.result, ""};
+  std::vector<std::string> names;
+  for (const FieldAnswer& of : answer.fields) names.push_back(of.name);
+  const FieldAnswer& of = answer.fields[place_of_field(handle, field, names)];
+  const std::optional<FieldDescription>& described = of.file->plan().field;
+  return {*of.file, *of.result, described->quantity.label, described->quantity.is_signed};
+}
+
 std::vector<float> faded(const EnsembleResult& result, int patch) {
   std::vector<float> values(result.tested.size(), kFaded);
   for (std::size_t k = 0; k < result.patches.size(); ++k) {
@@ -59,6 +76,8 @@ std::optional<nlohmann::ordered_json> ensemble_result(const std::string& handle,
     seconds += report.seconds;
     json["files"].push_back(report.path);
   }
+  json["fields"] = nlohmann::ordered_json::array();
+  for (const FieldAnswer& field : answer.fields) json["fields"].push_back(field.name);
   json["frames"] = n_frames;
   json["resumed"] = n_resumed;
   json["skipped"] = n_skipped;
@@ -74,10 +93,11 @@ std::optional<std::string> ensemble_table(const std::string& handle, const Objec
   return text.str();
 }
 
-std::optional<DrawnSurface> ensemble_surface(const std::string& handle, const Object& object, int patch) {
+std::optional<DrawnSurface> ensemble_surface(const std::string& handle, const Object& object, const std::string& field,
+                                             int patch) {
   const EnsembleObject* const ensemble = answered(handle, object);
   if (ensemble == nullptr) return std::nullopt;
-  const EnsembleResult& result = *ensemble->answer.result;
+  const EnsembleResult& result = field_of(handle, ensemble->answer, field).result;
   const TemplateSurface& surface = ensemble->answer.file->surface();
   if (patch < 0 || static_cast<std::size_t>(patch) > result.patches.size())
     throw InputError(option("patch", std::to_string(patch)) + ": " + handle + " has " +
@@ -86,15 +106,17 @@ std::optional<DrawnSurface> ensemble_surface(const std::string& handle, const Ob
   for (const Vec3d& p : surface.positions) drawn.positions.push_back(static_cast<Vec3f>(p));
   drawn.normals = surface.normals;
   drawn.triangles = &surface.triangles;
-  if (ensemble->untested.empty()) {
+  std::vector<std::uint8_t>& untested = ensemble->untested[field];
+  if (untested.empty()) {
     for (const Triangle& t : surface.triangles)
-      ensemble->untested.push_back(result.tested[t[0]] == 0 || result.tested[t[1]] == 0 || result.tested[t[2]] == 0);
+      untested.push_back(result.tested[t[0]] == 0 || result.tested[t[1]] == 0 || result.tested[t[2]] == 0);
   }
-  drawn.unmatched = &ensemble->untested;
+  drawn.unmatched = &untested;
   drawn.has_unmatched_positions = true;
   if (!result.compares) return drawn;
-  if (ensemble->faded.count(patch) == 0) ensemble->faded[patch] = faded(result, patch);
-  drawn.uncertainty = &ensemble->faded[patch];
+  std::vector<float>& fading = ensemble->faded[{field, patch}];
+  if (fading.empty()) fading = faded(result, patch);
+  drawn.uncertainty = &fading;
   return drawn;
 }
 
@@ -102,16 +124,21 @@ std::optional<VertexQuantity> ensemble_quantity(const std::string& handle, const
                                                 const std::string& name) {
   const EnsembleObject* const ensemble = answered(handle, object);
   if (ensemble == nullptr) return std::nullopt;
-  const EnsembleResult& result = *ensemble->answer.result;
-  const std::string& unit = ensemble->answer.file->plan().potential_unit;
-  if (name == "source") return VertexQuantity{where_tested(result.groups[0].mean, result.tested), unit};
-  if (name != "target" && name != "difference" && name != "t")
-    throw InputError("'" + name + "' is not difference, source, target or t");
-  if (!result.compares) throw InputError(handle + " has one group, and so no " + name + "; take source");
-  if (name == "target") return VertexQuantity{where_tested(result.groups[1].mean, result.tested), unit};
+  const DrawnName drawn(name);
+  const FieldOfEnsemble field = field_of(handle, ensemble->answer, drawn.field);
+  const EnsembleResult& result = field.result;
+  const std::string& unit = field.file.plan().potential_unit;
+  const auto quantity = [&](const std::vector<double>& values, const std::string& in, bool is_signed) {
+    return VertexQuantity{where_tested(values, result.tested), in, field.label, is_signed};
+  };
+  if (drawn.quantity == "source") return quantity(result.groups[0].mean, unit, field.is_signed);
+  if (drawn.quantity != "target" && drawn.quantity != "difference" && drawn.quantity != "t")
+    throw InputError("'" + drawn.quantity + "' is not difference, source, target or t");
+  if (!result.compares) throw InputError(handle + " has one group, and so no " + drawn.quantity + "; take source");
+  if (drawn.quantity == "target") return quantity(result.groups[1].mean, unit, field.is_signed);
   const PlaceTests& vertices = result.test.vertices;
-  if (name == "t") return VertexQuantity{where_tested(vertices.t, result.tested), ""};
-  return VertexQuantity{where_tested(vertices.difference, result.tested), unit};
+  if (drawn.quantity == "t") return quantity(vertices.t, "", true);
+  return quantity(vertices.difference, unit, true);
 }
 
 std::optional<std::string> merged_ensemble(const std::vector<std::string>& paths, const std::string& output,

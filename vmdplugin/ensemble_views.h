@@ -23,10 +23,13 @@ std::optional<std::string> ensemble_table(const std::string& handle, const Objec
 
 /// The template. Parts that were not tested are unmatched; uncertainty is 0 where the difference is significant, and
 /// kFaded elsewhere.
-/// @param patch 0, or the number of the only patch that counts as significant
-std::optional<DrawnSurface> ensemble_surface(const std::string& handle, const Object& object, int patch);
+/// @param field that is drawn; empty for the potential  @param patch 0, or the number of the only patch that counts as
+/// significant
+std::optional<DrawnSurface> ensemble_surface(const std::string& handle, const Object& object, const std::string& field,
+                                             int patch);
 
-/// @param name difference, source (the first group's mean), target (the second's), or t
+/// @param name difference, source (the first group's mean), target (the second's), or t; of a field FIELD:difference
+/// and so on
 /// @throws the same; InputError (another name; one group has no difference)
 std::optional<VertexQuantity> ensemble_quantity(const std::string& handle, const Object& object,
                                                 const std::string& name);

@@ -151,6 +151,8 @@ Tcl_Obj* range(const Call& call) {
                   {"p98", to_obj(range.p98)},
                   {"limit", to_obj(automatic_limit(quantity.values))},
                   {"unit", to_obj(quantity.unit)},
+                  {"label", to_obj(quantity.label)},
+                  {"signed", to_obj(quantity.is_signed ? 1 : 0)},
                   {"n", to_obj(range.n)},
                   {"n_nan", to_obj(range.n_nan)}});
 }

@@ -11,11 +11,23 @@ namespace espdiff::vmdplugin {
 struct VertexQuantity {
   std::vector<float> values;  ///< [vertex]; NaN where there is none
   std::string unit;           ///< "" for a sign
+  std::string label = "";     ///< of a field besides the potential
+  bool is_signed = true;      ///< whether 0 parts two kinds of values
 };
+
+/// "FIELD:QUANTITY", as drawings name a quantity of a field; FIELD is empty for the potential and for lengths.
+struct DrawnName {
+  std::string field, quantity;
+
+  explicit DrawnName(const std::string& text);
+};
+
+/// @throws InputError (a field that is not among these)
+std::size_t place_of_field(const std::string& handle, const std::string& field, const std::vector<std::string>& names);
 
 /// @param name of a comparison: difference (target - source), source, target, slip, displacement, path_length, or sign,
 /// which is +1 where a negative potential became positive, -1 where a positive one became negative, otherwise 0; of a
-/// surface: potential
+/// surface: potential. Difference, source, target and sign of a field are FIELD:difference and so on.
 /// @throws InputError (another name; no potentials; no slip, since no atoms pair), and the failure of the object's job
 VertexQuantity vertex_quantity(const std::string& handle, const Object& object, const std::string& name);
 

@@ -192,6 +192,16 @@ class Comparison(EngineResult):
         return self.to_dict()["fixed_patches"]
 
     @property
+    def fields(self) -> dict:
+        """The numbers of each field besides the potential that `fields=` named, by name, as in OUT.json."""
+        return self.to_dict()["fields"]
+
+    @property
+    def interface(self) -> typing.Optional[dict]:
+        """The complementarity that `interface=` asked for: partners, both states, the change; None without."""
+        return self.to_dict()["interface"]
+
+    @property
     def field_patches(self) -> list:
         """The patches of both states that `patches_of=` asked for: a dict for each field, as in OUT.json."""
         return self.to_dict()["field_patches"]

@@ -25,6 +25,7 @@
 namespace espdiff {
 
 struct Causes;
+struct InterfaceComparison;
 struct MapCheck;
 struct MapRecipe;
 
@@ -195,8 +196,9 @@ struct CompareResult : Alignment {
   std::size_t n_vertices_subdivided = 0;  ///< added by deform with `subdivide`
   MorphReport morph_report;
   std::vector<ResidueRow> residues;
-  std::vector<FieldResult> fields;          ///< besides the potential, in the order of the request
-  std::vector<FieldPatches> field_patches;  ///< in the order of the request
+  std::vector<FieldResult> fields;                          ///< besides the potential, in the order of the request
+  std::vector<FieldPatches> field_patches;                  ///< in the order of the request
+  std::shared_ptr<const InterfaceComparison> interface {};  ///< null unless one was asked for
   MappedSurface surface;
   UncoveredSurface uncovered;                           ///< of the target
   std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order; "total" last

@@ -108,7 +108,8 @@ bool has_setting(const Setting& setting, SettingsFor what) {
   const bool of_side = setting.name.rfind("source-", 0) == 0 || setting.name.rfind("target-", 0) == 0;
   switch (what) {
     case SettingsFor::kPair: return true;
-    case SettingsFor::kVariants: return !of_side && setting.name != "patches-of";
+    case SettingsFor::kVariants: return !of_side && setting.name != "patches-of" && setting.name != "interface";
+    case SettingsFor::kComplexes: return setting.group != "Fields";
     case SettingsFor::kSurface: return setting.of_surface;
     case SettingsFor::kPreparation: break;
   }

@@ -86,7 +86,8 @@ using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 /// What a verb does decides which settings it has.
 enum class SettingsFor {
   kPair,        ///< all
-  kVariants,    ///< of many structures alike: none of one side, no patches of one state
+  kVariants,    ///< of many structures alike: none of one side, no patches of one state, no interface
+  kComplexes,   ///< one or two complexes: no fields
   kSurface,     ///< those that one molecule's surface depends on
   kPreparation  ///< which atoms, and where charges come from
 };

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/error.h"
 #include "base/formatted.h"
@@ -11,8 +14,36 @@
 #include "io/text/text_cursor.h"
 
 namespace espdiff::cli {
+namespace {
+
+/// Those that differ most; 0 keeps all in the table's order.
+void keep_largest(StatePlot& plot, std::size_t top) {
+  if (top == 0 || plot.bars.size() <= top) return;
+  std::stable_sort(plot.bars.begin(), plot.bars.end(), [](const StateBar& l, const StateBar& r) {
+    return std::fabs(l.difference) > std::fabs(r.difference);
+  });
+  plot.bars.resize(top);
+}
+
+/// Name and unit of what an ensemble compares, from the record beside its table; "potential" without one.
+std::pair<std::string, std::string> quantity_of_ensemble(const std::string& table) {
+  std::ifstream in(result_prefix(table) + ".json");
+  const nlohmann::json record = nlohmann::json::parse(in, nullptr, false);
+  if (!record.is_object()) return {"potential", ""};
+  const auto text = [](const nlohmann::json& of, const char* key) {
+    return of.is_object() && of.contains(key) && of[key].is_string() ? of[key].get<std::string>() : std::string();
+  };
+  const std::string name = record.contains("field") ? text(record["field"], "name") : "";
+  return {name.empty() ? "potential" : name, text(record, "potential_unit")};
+}
+
+}  // namespace
 
 bool is_pair_table(const CsvTable& table) { return table.find("residue_number") == 1 && table.find("area [A^2]") > 0; }
+
+bool is_ensemble_table(const CsvTable& table) {
+  return table.find("residue") == 0 && table.find("significant_area_A2") > 4;
+}
 
 StatePlot state_plot(const CsvTable& table, bool bars, std::size_t top, const std::string& title,
                      const std::string& field) {
@@ -42,16 +73,33 @@ StatePlot state_plot(const CsvTable& table, bool bars, std::size_t top, const st
     if (std::isfinite(bar.difference) && std::isfinite(bar.source) && std::isfinite(bar.target))
       plot.bars.push_back(std::move(bar));
   }
-  if (bars && top > 0 && plot.bars.size() > top) {
-    std::stable_sort(plot.bars.begin(), plot.bars.end(), [](const StateBar& l, const StateBar& r) {
-      return std::fabs(l.difference) > std::fabs(r.difference);
-    });
-    plot.bars.resize(top);
-  }
+  if (bars) keep_largest(plot, top);
   plot.title = !title.empty()  ? title
                : bars          ? "Bars: target - source, mean " + (field.empty() ? "" : field + " ") + "of each residue"
                : field.empty() ? "Mean potential of each residue"
                                : "Mean of each residue: " + field;
+  return plot;
+}
+
+StatePlot group_plot(const CsvTable& table, bool bars, std::size_t top, const std::string& title) {
+  const std::string mean = "mean_";
+  const std::size_t source = 2, target = 3, difference = table.require("difference");
+  StatePlot plot;
+  plot.has_bars = bars;
+  plot.source = table.columns[source].substr(mean.size());
+  plot.target = table.columns[target].substr(mean.size());
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    StateBar bar{table.rows[row][0], table.number(row, difference), table.number(row, source),
+                 table.number(row, target)};
+    if (std::isfinite(bar.difference) && std::isfinite(bar.source) && std::isfinite(bar.target))
+      plot.bars.push_back(std::move(bar));
+  }
+  if (bars) keep_largest(plot, top);
+  const auto [quantity, unit] = quantity_of_ensemble(table.path);
+  plot.unit = unit;
+  plot.title = !title.empty() ? title
+               : bars         ? "Bars: " + plot.target + " - " + plot.source + ", mean " + quantity + " of each residue"
+                              : "Mean of each residue: " + quantity;
   return plot;
 }
 

@@ -45,6 +45,13 @@ std::vector<CausePanel> cause_panels(const CsvTable& table);
 /// The table of a result's causes, whichever of its files is given. @throws InputError (there is none)
 std::string cause_table_of(const std::string& given);
 
+/// Whether it is the OUT.residues.csv or OUT.NAME.residues.csv of an ensemble of two groups.
+bool is_ensemble_table(const CsvTable& table);
+
+/// The means of both groups by residue. The groups' names and the unit come from the table and from the OUT.json beside
+/// it. @param bars, top, title as state_plot()
+StatePlot group_plot(const CsvTable& table, bool bars, std::size_t top, const std::string& title);
+
 /// As `espdiff plot TABLE -o PICTURE`, of a trajectory's table.
 /// @throws as line_plot_script(), write_picture()
 void plot_frames(const std::string& table, const std::string& picture);

@@ -39,6 +39,13 @@ std::size_t count_missing(const std::vector<float>& values, const std::vector<bo
   return n;
 }
 
+std::string without_values(const FieldResult& field) {
+  return "field " + field.quantity.name + ": no point has a value in both states (" +
+         std::to_string(field.n_missing_source) + " vertices of the source and " +
+         std::to_string(field.n_missing_target) +
+         " of the target have none), so that nothing was compared; a map has to lie where its structure does";
+}
+
 /// Means over triangles that are trusted and have values at all corners.
 std::vector<ResidueMeans> means_of(const FieldResult& field, const MappedSurface& s, std::size_t n_residues) {
   const auto has_both = [&](std::uint32_t v) {
@@ -94,7 +101,9 @@ void compare_fields(Engine& engine, const std::vector<Field>& fields, const Fiel
                       options.surface.radius_scale,
                       side.potential};
   };
-  const FieldPlace on_source = place(source, step.mapping.source), on_target = place(target, step.mapping.mapped);
+  const FieldPlace on_source = place(source, step.mapping.source);
+  FieldPlace on_target = place(target, step.mapping.mapped);
+  on_target.left_out = result.surface.unmatched;
   for (std::size_t f = 0; f < fields.size(); ++f) {
     FieldResult field;
     field.quantity = fields[f].quantity;
@@ -127,6 +136,7 @@ void compare_fields(Engine& engine, const std::vector<Field>& fields, const Fiel
       for (const std::string& note : of_state->notes)
         result.warnings.push_back({"field " + field.quantity.name + ": " + note, false});
     }
+    if (!(field.metrics_all.area_A2 > 0)) result.warnings.push_back({without_values(field), false});
     result.fields.push_back(std::move(field));
   }
 }

@@ -21,7 +21,6 @@
 #include "mapping/build_surface.h"
 #include "mapping/map_recipe.h"
 #include "options/options.h"
-#include "potential/potential_plan.h"
 #include "prepare/load_state.h"
 #include "prepare/surface_radii.h"
 
@@ -158,7 +157,7 @@ double nearest_distance(const Molecule& a, const Molecule& b) {
 }  // namespace
 
 InterfaceOfComplex::InterfaceOfComplex(Engine& engine, const LoadedState& complex, const InterfaceRequest& request,
-                                       const PotentialPlan& plan, const CompareOptions& options,
+                                       const MapOfComplex& map_of, const CompareOptions& options,
                                        const Progress& progress)
     : engine_(engine) {
   const PartnerAtoms of_file = atoms_of(request, complex.molecule);
@@ -169,6 +168,7 @@ InterfaceOfComplex::InterfaceOfComplex(Engine& engine, const LoadedState& comple
   }
   LoadedState both = complex;
   both.molecule = keep_atoms(complex.molecule, either);
+  both.everything = {};
   const PartnerAtoms atoms = atoms_of(request, both.molecule);
   to_common_ = principal_frame(both.molecule.positions);
   for (std::size_t side = 0; side < 2; ++side) {
@@ -177,7 +177,13 @@ InterfaceOfComplex::InterfaceOfComplex(Engine& engine, const LoadedState& comple
     for (std::size_t i = 0; i < own.size(); ++i) {
       if (!own[i]) charged.molecule.charges[i] = 0;
     }
-    const MadeMap made = plan.map_of(charged).maker()(engine, inverse(to_common_), {}, progress);
+    const ComputedMap map = map_of(charged);
+    if (map.recipe().method == PotentialMethod::kPme)
+      throw InputError(
+          "complementarity is of potentials that one partner's charges make in the dielectric of both; "
+          "a potential of all charges in a cell (pme) has none; use " +
+          option("potential", "pb"));
+    const MadeMap made = map.maker()(engine, inverse(to_common_), {}, progress);
     maps_[side] = made.map;
     result_.potential = potential_label(made.recipe);
     result_.sides[side].molecule = keep_atoms(both.molecule, own);
@@ -227,6 +233,25 @@ void InterfaceOfComplex::read(std::size_t side, InterfaceSurface& s) const {
   s.other = engine_.download(engine_.sample(maps_[1 - side], uploaded));
   s.inside = trimmed(s, buried_vertices(touched, result_.sides[1 - side].molecule));
   set_local(s);
+}
+
+StateField InterfaceOfComplex::field(std::size_t side) const {
+  StateField field;
+  field.on_surface = [this, side](const FieldPlace& place) {
+    const Mesh mesh = engine_.download_shape(place.mesh);
+    const RigidTransform from_common = inverse(place.to_common);
+    InterfaceSurface surface;
+    surface.triangles = mesh.triangles;
+    surface.left_out = place.left_out;
+    for (const Vec3f& p : mesh.positions) surface.positions.push_back(from_common.apply(static_cast<Vec3d>(p)));
+    read(side, surface);
+    return surface.local;
+  };
+  return field;
+}
+
+StateComplementarity Complementarity::numbers() const {
+  return {sides[0].molecule.name, {sides[0], sides[1]}, pearson, spearman, n_left_out, potential};
 }
 
 InterfaceChange change_of_side(Engine& engine, const InterfaceOfComplex& source, const InterfaceOfComplex& target,

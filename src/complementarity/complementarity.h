@@ -12,30 +12,26 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "base/handles.h"
 #include "base/progress.h"
 #include "base/types.h"
-#include "complementarity/interface_request.h"
+#include "certificate/interface_numbers.h"
+#include "field/field.h"
+#include "field/interface_request.h"
+#include "potential/computed_map.h"
 
 namespace espdiff {
 
 class Engine;
-class PotentialPlan;
 struct CompareOptions;
 struct CompareResult;
 struct LoadedState;
 
 constexpr double kProbe_A = 1.4, kTrimmedBorder_A = 1.5;
-
-/// A partner's part in the complementarity.
-struct InterfaceResidue {
-  double area_A2 = 0;                   ///< of its surface within the interface
-  double contribution = 0;              ///< to the partner's -r; all residues of a partner add up to it
-  double mean_own = 0, mean_other = 0;  ///< potentials of its own partner and of the other, kT/e; NaN without area
-};
 
 /// Both potentials on a partner's surface.
 struct InterfaceSurface {
@@ -52,11 +48,9 @@ struct InterfaceSurface {
 };
 
 /// One partner of one complex.
-struct InterfaceSide {
+struct InterfaceSide : SideComplementarity {
   Molecule molecule;
   InterfaceSurface surface;
-  double buried_area_A2 = 0, area_A2 = 0;  ///< buried; of that within the interface
-  double pearson = 0, spearman = 0;        ///< -r of both potentials
   std::vector<InterfaceResidue> residues;  ///< [residue of the molecule]
 };
 
@@ -66,18 +60,24 @@ struct Complementarity {
   double pearson = 0, spearman = 0;  ///< means of both sides
   std::size_t n_left_out = 0;        ///< atoms of neither partner
   std::string potential;             ///< in words
+
+  StateComplementarity numbers() const;
 };
+
+/// The potential of a complex whose charges are those of one partner.
+using MapOfComplex = std::function<ComputedMap(const LoadedState& charged)>;
 
 /// The potentials of both partners and the interface of one complex.
 /// @param complex with charges; its radii make the potentials
-/// @param plan    that computes potentials
-/// @throws InputError (partners, as atoms_of(); an interface that buries nothing; as PotentialPlan::map_of())
+/// @throws InputError (partners, as atoms_of(); an interface that buries nothing; a periodic potential; as map_of)
 class InterfaceOfComplex {
  public:
   InterfaceOfComplex(Engine& engine, const LoadedState& complex, const InterfaceRequest& request,
-                     const PotentialPlan& plan, const CompareOptions& options, const Progress& progress);
+                     const MapOfComplex& map_of, const CompareOptions& options, const Progress& progress);
 
   const Complementarity& result() const { return result_; }
+  /// The local complementarity on any surface of a side, as a field. Refers to this object.
+  StateField field(std::size_t side) const;
   /// Reads both potentials on another form of a side's surface, and finds the interface there.
   void read(std::size_t side, InterfaceSurface& surface) const;
 

@@ -18,16 +18,6 @@ struct ComplementarityResult {
   std::vector<InterfaceChange> changes;        ///< [side] where there are two
 };
 
-/// A row of OUT.interface.csv: a residue of a partner, its numbers in the first complex, and in the second.
-struct InterfaceRow {
-  std::size_t side = 0;
-  const Residue* residue = nullptr;        ///< of the first complex, or of the second where the first has none
-  const InterfaceResidue* states[2] = {};  ///< null where there is none
-
-  /// Second less first; NaN for one complex.
-  double change() const;
-};
-
 /// The residues with surface in the interface of any state, in the order of the molecules.
 std::vector<InterfaceRow> interface_rows(const ComplementarityResult& result);
 

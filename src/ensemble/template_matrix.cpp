@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <utility>
 
 #include "base/error.h"
@@ -120,7 +121,7 @@ EnsemblePlan plan_of(const MatrixPlan& matrix, const Template& chosen, const Tem
 }
 
 CompareInput frame_of(const Variant& variant) {
-  return {&variant.molecule, variant.map ? &*variant.map : nullptr, variant.make_map, {}};
+  return {&variant.molecule, variant.map ? &*variant.map : nullptr, variant.make_map, {}, variant.fields};
 }
 
 /// The shard's part of the sample, source by source.
@@ -131,6 +132,12 @@ std::vector<MatrixPair> exact_pairs(std::size_t n_variants, std::size_t n_exact,
                                all.begin() + static_cast<std::ptrdiff_t>(index * all.size() / count));
   std::sort(part.begin(), part.end());
   return part;
+}
+
+std::vector<EnsembleFile> files_of_fields(const std::vector<std::string>& paths) {
+  std::vector<EnsembleFile> files;
+  for (const std::string& path : paths) files.emplace_back(path, false);
+  return files;
 }
 
 /// Progress of a part of the work.
@@ -145,7 +152,7 @@ Progress part_of(const Progress& progress, double begin, double end) {
 MatrixReport run_template_matrix(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                                  const TemplateRequest& request, const MatrixRun& run, const Progress& progress) {
   refuse_causes(options, "a matrix");
-  refuse_fields(options, "a matrix through a template");
+  refuse_patches_of(options, "a matrix");
   check_request(variants, options, run);
   const std::string path = ensemble_path(run.output, run.shard), state = state_path(run.output, run.shard);
   MatrixRun files = run;
@@ -170,13 +177,17 @@ MatrixReport run_template_matrix(Engine& engine, const std::vector<Variant>& var
   report.seconds += mapped.seconds;
   if (run.shard.count > 1) {
     report.files = {path};
+    report.files.insert(report.files.end(), mapped.field_paths.begin(), mapped.field_paths.end());
     if (!sample.empty()) report.files.push_back(state);
     return report;
   }
   exact = sampled(plan, request.n_exact, exact);
-  finish_matrix(run, matrix_through_template(EnsembleFile(path, false), std::move(exact)), report);
+  finish_matrix(
+      run, matrix_through_template(EnsembleFile(path, false), files_of_fields(mapped.field_paths), std::move(exact)),
+      report);
   report.n_pairs = report.matrix->cells.size();
   report.files.push_back(path);
+  report.files.insert(report.files.end(), mapped.field_paths.begin(), mapped.field_paths.end());
   std::error_code ignored;
   fs::remove(state, ignored);
   return report;
@@ -189,10 +200,29 @@ bool are_parts_of_template_matrix(const std::vector<std::string>& paths) {
 
 MatrixReport merge_template_matrix(const std::vector<std::string>& paths, const MatrixRun& run) {
   std::vector<std::string> files, states;
-  for (const std::string& path : paths) (is_hdf5_file(path) ? files : states).push_back(path);
+  std::map<std::string, std::vector<std::string>> of_fields;
+  for (const std::string& path : paths) {
+    if (!is_hdf5_file(path)) {
+      states.push_back(path);
+    } else if (const auto field = EnsembleFile(path, false).plan().field) {
+      of_fields[field->quantity.name].push_back(path);
+    } else {
+      files.push_back(path);
+    }
+  }
+  if (files.empty())
+    throw InputError(paths.front() +
+                     ": this is a part of a field, and the parts of its matrix are missing; name all "
+                     "files of all shards");
   check_outputs(paths, {run.output + ".csv", run.output + ".json", ensemble_path(run.output, {})});
   const EnsemblePlan plan = EnsembleFile(files.front(), false).plan();
   check_results(run, run.overwrite, plan.matrix->compared());
+  for (const FieldDescription& field : plan.matrix->fields) {
+    const std::string& name = field.quantity.name;
+    if (of_fields.count(name) == 0)
+      throw InputError("the parts of the field " + name + " are missing; name them too, as OUT." + name +
+                       ".shard-1-of-2.h5");
+  }
   std::vector<MatrixCell> exact;
   for (const std::string& path : states) {
     const MatrixStateContent part = read_matrix_state(path);
@@ -203,10 +233,19 @@ MatrixReport merge_template_matrix(const std::vector<std::string>& paths, const 
   }
   exact = sampled(*plan.matrix, plan.n_exact, exact);
   const EnsembleReport merged = merge_ensemble(files, {run.output, {}, false, run.overwrite, false});
+  std::vector<std::string> fields;
+  for (const FieldDescription& field : plan.matrix->fields) {
+    const std::string& name = field.quantity.name;
+    fields.push_back(
+        merge_ensemble(of_fields[name], {field_prefix(run.output, name), {}, false, run.overwrite, false}).path);
+  }
   MatrixReport report;
-  finish_matrix(run, matrix_through_template(EnsembleFile(merged.path, false), std::move(exact)), report);
+  finish_matrix(run,
+                matrix_through_template(EnsembleFile(merged.path, false), files_of_fields(fields), std::move(exact)),
+                report);
   report.n_pairs = report.n_resumed = report.matrix->cells.size();
   report.files.push_back(merged.path);
+  report.files.insert(report.files.end(), fields.begin(), fields.end());
   report.template_work = {merged.n_frames,
                           merged.n_frames,
                           report.matrix->through->exact.size(),

@@ -1,6 +1,7 @@
 // field.h: a field that two states are compared by: what it is, and how it is made for a state.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -26,7 +27,8 @@ struct FieldPlace {
   AtomsPtr atoms;            ///< of the molecule
   float isovalue = 0;
   double radius_scale = 1;
-  GridPtr potential;  ///< of the molecule; null where there is none
+  GridPtr potential;                     ///< of the molecule; null where there is none
+  std::vector<std::uint8_t> left_out{};  ///< [triangle] nonzero where the mesh is no surface; empty for none
 };
 
 /// [vertex] values on a surface; NaN where there are none.

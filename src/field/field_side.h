@@ -13,11 +13,12 @@ struct StateField;
 
 /// What fields are made of besides a state's molecule. Names fill the places in the names of field's files.
 struct FieldInput {
-  std::string label{};                         ///< of a variant: `{label}`
-  std::string group{};                         ///< of a variant: `{group}`
-  std::string replicate{};                     ///< of a frame: `{replicate}`
-  int frame = -1;                              ///< its number, from 0: `%d`; -1: no frame
-  std::shared_ptr<const GivenValues> given{};  ///< per-atom values of VMD or Python; null for none
+  std::string label{};                                  ///< of a variant: `{label}`
+  std::string group{};                                  ///< of a variant: `{group}`
+  std::string replicate{};                              ///< of a frame: `{replicate}`
+  int frame = -1;                                       ///< its number, from 0: `%d`; -1: no frame
+  std::shared_ptr<const GivenValues> given{};           ///< per-atom values of VMD or Python; null for none
+  std::shared_ptr<const StateField> complementarity{};  ///< at an interface of the state's; null without one
   /// [field] made before, as make_state_fields() does; null: made when the state is compared.
   std::shared_ptr<const std::vector<StateField>> made{};
 };

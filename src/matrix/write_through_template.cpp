@@ -70,14 +70,14 @@ void print_agreement(std::ostream& out, const Matrix& matrix) {
     n_both += by_itself && through ? 1 : 0;
   }
   const bool are_all = exact.size() == matrix.n() * (matrix.n() - 1);
-  out << formatted("\n%-37s%8s%10s%12s%10s%9s  of\n",
+  out << formatted("\n%-43s%8s%10s%12s%10s%9s  of\n",
                    formatted("%zu pair%s by %s%s", exact.size(), exact.size() == 1 ? "" : "s",
                              exact.size() == 1 ? "itself" : "themselves", are_all ? "" : ", chosen at random")
                        .c_str(),
                    "exact", "template", "mean diff.", "largest", "correl.");
   for (const TemplateAgreement& of : agreement(matrix)) {
     const Metric& metric = matrix.metrics()[of.metric];
-    out << formatted("  %-34.34s %8.3g %9.3g%12.3g%10.3g%9s  %s to %s\n", metric.label, of.exact_mean, of.template_mean,
+    out << formatted("  %-40.40s %8.3g %9.3g%12.3g%10.3g%9s  %s to %s\n", metric.label, of.exact_mean, of.template_mean,
                      of.mean_difference, of.largest_difference,
                      std::isnan(of.correlation) ? "-" : formatted("%.3f", of.correlation).c_str(),
                      matrix.plan.variants[of.farthest.first].label.c_str(),

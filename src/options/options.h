@@ -59,6 +59,7 @@ struct CompareOptions {
   std::vector<double> offsets_A{0};
   std::vector<FieldRequest> fields;        ///< compared besides the potential
   std::vector<PatchesRequest> patches_of;  ///< fields whose patches in each state are found
+  std::string interface;                   ///< "A:B": partners whose complementarity is compared; empty for none
   std::vector<std::string> causes;         ///< readings whose causes are wanted; see causes/reading.h
   /// Share of the source's surface, and of the target's, that has to be trusted; below it a result is not trustworthy.
   double required_share = 0.5;

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "field/field_kinds.h"
 #include "field/field_patches.h"
+#include "field/interface_request.h"
 #include "options/input_settings.h"
 #include "options/options.h"
 
@@ -208,6 +209,18 @@ Setting patches_of_setting() {
   return row;
 }
 
+Setting interface_setting() {
+  return Rows::parsed(
+      "interface", "Fields",
+      [](CompareOptions& o, const std::string& text) {
+        if (!text.empty()) parse_interface(text);
+        o.interface = text;
+      },
+      [](const CompareOptions& o) { return o.interface; },
+      "Compare the electrostatic complementarity of two partners of a complex, A:B: chains, as in H,L:A, or "
+      "selections. Both states are complexes; the surface that is compared is that of the first partner alone");
+}
+
 /// The settings whose key in OUT.json ends with a unit.
 constexpr std::pair<const char*, const char*> kUnits[] = {{"grid-spacing", "A"},       {"max-step", "A"},
                                                           {"distance-threshold", "A"}, {"gvf-weight", "A2"},
@@ -253,6 +266,7 @@ std::vector<Setting> make_settings() {
   add_input_settings(all);
   all.push_back(field_setting());
   all.push_back(patches_of_setting());
+  all.push_back(interface_setting());
   all.push_back(offset_setting());
   all.push_back(of_surface(Rows::number(
       "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
@@ -311,12 +325,6 @@ std::vector<std::pair<std::string, std::string>> setting_texts(const CompareOpti
   return texts;
 }
 
-void refuse_fields(const CompareOptions& options, const std::string& what) {
-  if (!options.fields.empty())
-    throw InputError(option("field") + ": " + what + " has no fields besides the potential; leave the option out");
-  refuse_patches_of(options, what);
-}
-
 void refuse_patches_of(const CompareOptions& options, const std::string& what) {
   if (!options.patches_of.empty())
     throw InputError(option("patches-of") + ": " + what + " has no patches of one state; compare pairs by them");
@@ -352,6 +360,13 @@ void refuse_of_other_method(const std::vector<std::pair<std::string, std::string
   }
 }
 
+/// The field that an interface is compared by, unless it is among them.
+void add_complementarity(std::vector<FieldRequest>& fields) {
+  const bool is_there = std::any_of(fields.begin(), fields.end(),
+                                    [](const FieldRequest& request) { return request.what == kComplementarity; });
+  if (!is_there) fields.push_back({kComplementarity, kComplementarity});
+}
+
 }  // namespace
 
 CompareOptions make_options(const std::vector<std::pair<std::string, std::string>>& given) {
@@ -362,6 +377,7 @@ CompareOptions make_options(const std::vector<std::pair<std::string, std::string
   for (const auto& [name, text] : given) find_setting(name).set(options, text);
   refuse_of_other_method(given, options.method);
   check_input_options(options.input);
+  if (!options.interface.empty()) add_complementarity(options.fields);
   check_fields(options.fields, part_names(options.input));
   check_patches_of(options.patches_of, options.fields);
   check_readings(options);

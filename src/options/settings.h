@@ -70,10 +70,6 @@ std::vector<std::pair<std::string, std::string>> setting_texts(const CompareOpti
 /// @throws InputError if the options ask for them
 void refuse_patches_of(const CompareOptions& options, const std::string& what);
 
-/// @param what of a run that compares potentials alone: "an ensemble"
-/// @throws InputError if the options name fields, or patches of one state
-void refuse_fields(const CompareOptions& options, const std::string& what);
-
 /// For what makes several results of one kind. @throws InputError where causes are asked for
 void refuse_causes(const CompareOptions& options, const char* of_what);
 

@@ -69,8 +69,9 @@ std::string state_bars_script(const StatePlot& plot, PictureFormat format) {
   }
   out << "plot '-' using 1:2 with points pointsize 0 notitle, '-' using 1:2 with points pointtype 6 pointsize 0.7 "
          "linecolor rgb '"
-      << kInk << "' title 'source', '-' using 1:2 with points pointtype 7 pointsize 0.6 linecolor rgb '" << kInk
-      << "' title 'target'\n";
+      << kInk << "' title " << gnuplot_string(plot.source)
+      << ", '-' using 1:2 with points pointtype 7 pointsize 0.6 linecolor rgb '" << kInk << "' title "
+      << gnuplot_string(plot.target) << '\n';
   add_column(out, plot, &StateBar::difference);
   add_column(out, plot, &StateBar::source);
   add_column(out, plot, &StateBar::target);
@@ -78,6 +79,7 @@ std::string state_bars_script(const StatePlot& plot, PictureFormat format) {
 }
 
 std::string state_scatter_script(const StatePlot& plot, PictureFormat format) {
+  const std::string unit = plot.unit.empty() ? "" : " (" + plot.unit + ")";
   const auto [low, high] = drawn_range(plot);
   const double room = std::max(0.05 * (high - low), 1e-3);
   std::vector<std::size_t> order(plot.bars.size());
@@ -89,10 +91,10 @@ std::string state_scatter_script(const StatePlot& plot, PictureFormat format) {
   order.resize(std::min(order.size(), kMostLabels));
   std::ostringstream out;
   out << picture_head(format, {kScatterSide, kScatterSide, 3}) << "set size square\nset title "
-      << gnuplot_string(plot.title) << "\nset xlabel " << gnuplot_string("source (" + plot.unit + ")")
-      << "\nset ylabel " << gnuplot_string("target (" + plot.unit + ")") << "\nset xrange ["
-      << gnuplot_number(low - room) << ':' << gnuplot_number(high + room) << "]\nset yrange ["
-      << gnuplot_number(low - room) << ':' << gnuplot_number(high + room) << "]\nunset key\n";
+      << gnuplot_string(plot.title) << "\nset xlabel " << gnuplot_string(plot.source + unit) << "\nset ylabel "
+      << gnuplot_string(plot.target + unit) << "\nset xrange [" << gnuplot_number(low - room) << ':'
+      << gnuplot_number(high + room) << "]\nset yrange [" << gnuplot_number(low - room) << ':'
+      << gnuplot_number(high + room) << "]\nunset key\n";
   for (const std::size_t i : order) {
     const StateBar& bar = plot.bars[i];
     out << "set label " << gnuplot_string(bar.label) << " at " << gnuplot_number(bar.source) << ','

@@ -19,6 +19,7 @@ struct StatePlot {
   std::string title, unit;
   bool has_bars = true;      ///< differences are drawn too, from 0
   double low = 0, high = 0;  ///< ends of the axis of values; if equal, the range of all values is used
+  std::string source = "source", target = "target";  ///< what the states are called
 };
 
 /// Lowest and highest value that is drawn; with `low` and `high`, these.

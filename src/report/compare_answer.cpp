@@ -84,6 +84,15 @@ void print_main_numbers(std::ostream& out, const Record& record) {
                            formatted("%.4g", field.number("/mean_signed_difference")) + ", correlation " +
                            formatted("%.3g", field.number("/correlation")));
   }
+  if (record.has("/interface")) {
+    const Record interface(record.at("/interface"));
+    print_brief_number(
+        out, "Complementarity",
+        formatted("%.3f -> %.3f", interface.number("/source/pearson"), interface.number("/target/pearson")),
+        "of " + interface.text("/first") + " and " + interface.text("/second") +
+            formatted("; Spearman %.3f -> %.3f", interface.number("/source/spearman"),
+                      interface.number("/target/spearman")));
+  }
   for (const Json& patches : record.at("/field_patches"))
     print_wrapped(out, field_patches_in_words(Record(patches)), "Patches of " + Record(patches).text("/field"),
                   kLabelWidth, 2);

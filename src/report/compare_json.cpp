@@ -15,6 +15,7 @@
 #include "report/records/metrics.h"
 #include "report/sections/causes_report.h"
 #include "report/sections/field_json.h"
+#include "report/sections/interface_report.h"
 #include "report/sections/json_number.h"
 #include "report/sections/placement.h"
 #include "report/sections/potential_json.h"
@@ -333,6 +334,7 @@ Json compare_json(const Molecule& source, const Molecule& target, const CompareR
   json["names"] = {{"source", source.name}, {"target", target.name}};
   add_results(json, source, result, spelling);
   json["field_patches"] = field_patches_json(source, target, result);
+  json["interface"] = interface_json(result);
   json["time_ms"] = Json::object();
   for (const auto& [stage, ms] : result.time_ms) json["time_ms"][stage] = json_number(ms);
   json["device"] = provenance.device;

@@ -12,6 +12,7 @@
 #include "report/records/record.h"
 #include "report/records/record_words.h"
 #include "report/records/text_lines.h"
+#include "report/sections/interface_report.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
@@ -327,6 +328,7 @@ void print_table(std::ostream& out, const Json& json) {
     out << "\nPatches of " << Record(patches).text("/field") << '\n';
     print_item(out, field_patches_in_words(Record(patches)));
   }
+  print_interface(out, record);
   print_causes(out, record);
   print_warnings(out, record);
   print_verdict(out, record);

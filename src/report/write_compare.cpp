@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/molecule/surface_parts.h"
+#include "certificate/interface_numbers.h"
 #include "certificate/region_result.h"
 #include "certificate/result.h"
 #include "io/files/atomic_file.h"
@@ -25,6 +26,7 @@
 #include "report/field_patches_report.h"
 #include "report/records/metrics.h"
 #include "report/sections/causes_report.h"
+#include "report/sections/interface_report.h"
 #include "report/sections/potential_json.h"
 #include "report/sections/probed_causes.h"
 #include "report/sections/provenance.h"
@@ -203,6 +205,11 @@ void write_of_causes(std::ostream& out, const Compared& of) {
 constexpr FurtherFile kFurtherFiles[] = {
     {".field_patches.csv", [](const CompareOptions& o) { return !o.patches_of.empty(); },
      [](std::ostream& out, const Compared& of) { write_field_patches(out, of.source, of.target, of.result); }},
+    {".interface.csv", [](const CompareOptions& o) { return !o.interface.empty(); },
+     [](std::ostream& out, const Compared& of) {
+       const InterfaceComparison& interface = *of.result.interface;
+       write_interface_rows(out, interface.first, interface.second, 2, interface.rows);
+     }},
     {".causes.csv", [](const CompareOptions& o) { return !o.causes.empty(); }, write_of_causes<write_causes>},
     {".scan.csv", [](const CompareOptions& o) { return o.scan; }, write_of_causes<write_scan>},
     {".side-chains.csv", [](const CompareOptions& o) { return o.side_chains > 0; },

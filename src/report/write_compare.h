@@ -19,7 +19,8 @@ struct CompareOptions;
 struct CompareResult;
 struct Provenance;
 
-/// Of the tables that options ask for: ".causes.csv", ".scan.csv", ".side-chains.csv", ".field_patches.csv".
+/// Of the tables that options ask for: ".causes.csv", ".scan.csv", ".side-chains.csv", ".field_patches.csv",
+/// ".interface.csv".
 std::vector<std::string> further_endings(const CompareOptions& options);
 
 /// A file written beside the results that is the input of a role from then on; the original input stays listed under

@@ -147,7 +147,8 @@ ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene)
   files.surface = read_surface_file(vtp_path, scene.field);
   files.surface.values(scene.array);
   files.record = read_run_record(vtp_path);
-  const bool needs_maps = (shows_potentials(scene) && !scene.per_vertex && scene.field.empty()) || reads_maps(scene);
+  const bool needs_maps =
+      (shows_potentials(scene) && !scene.per_vertex && files.surface.field.empty()) || reads_maps(scene);
   if (needs_maps) files.maps = read_map_pair(files.record, files.surface);
   read_missing_files(files, scene);
   return files;

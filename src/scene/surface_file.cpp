@@ -122,6 +122,23 @@ void read_arrays(SurfaceFile& file, const VtpContent& surface) {
   file.array_names = names_of(surface);
 }
 
+std::string joined_names(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// Names of the fields that the file has values of.
+std::vector<std::string> fields_of(const VtpContent& surface) {
+  const std::string ending = "_label";
+  std::vector<std::string> names;
+  for (const auto& [key, text] : surface.texts) {
+    if (key.size() > ending.size() && key.compare(key.size() - ending.size(), ending.size(), ending) == 0)
+      names.push_back(key.substr(0, key.size() - ending.size()));
+  }
+  return names;
+}
+
 /// Puts a field in the place of the potential.
 void take_field(SurfaceFile& file, const VtpContent& surface, const std::string& field) {
   const std::string label = text_of(surface, (field + "_label").c_str());
@@ -129,15 +146,11 @@ void take_field(SurfaceFile& file, const VtpContent& surface, const std::string&
   file.potential_target = numbers_of(surface, (field + "_target").c_str());
   file.potential_difference = numbers_of(surface, (field + "_difference").c_str());
   if (label.empty() || file.potential_difference.empty()) {
-    std::string names;
-    const std::string ending = "_label";
-    for (const auto& [key, text] : surface.texts) {
-      if (key.size() > ending.size() && key.compare(key.size() - ending.size(), ending.size(), ending) == 0)
-        names += (names.empty() ? "" : ", ") + key.substr(0, key.size() - ending.size());
-    }
-    throw InputError(file.path + ": has no field '" + field + "'; it has " +
-                     (names.empty() ? "none: compare with " + option("field", "NAME") : Message(names)));
+    throw InputError(
+        file.path + ": has no field '" + field + "'; it has " +
+        (file.fields.empty() ? "none: compare with " + option("field", "NAME") : Message(joined_names(file.fields))));
   }
+  file.field = field;
   file.quantity = label;
   file.potential_unit = text_of(surface, (field + "_unit").c_str());
   file.is_signed = text_of(surface, (field + "_signed").c_str()) != "0";
@@ -174,8 +187,12 @@ const std::vector<float>& SurfaceFile::values(RenderArray array) const {
     return nothing;
   };
   if (pick().empty() && array != RenderArray::kPlain) {
-    throw InputError(path + ": no point array '" + array_name(array) + "' (there are: " + array_names +
-                     "); colour by another, or compare with " + option("source-map") + " and " + option("target-map"));
+    const std::string lacks = path + ": no point array '" + array_name(array) + "' (there are: " + array_names + "); ";
+    if (potential_difference.empty() && !fields.empty())
+      throw InputError(lacks + "draw one of its fields, " + option("field", fields.front()) +
+                       (fields.size() > 1 ? " of " + joined_names(fields) : "") + ", or colour by another array");
+    throw InputError(lacks + "colour by another, or compare with " + option("source-map") + " and " +
+                     option("target-map"));
   }
   return pick();
 }
@@ -191,7 +208,13 @@ SurfaceFile read_surface_file(const std::string& path, const std::string& field)
   SurfaceFile file;
   file.path = path;
   read_arrays(file, surface);
-  if (!field.empty()) take_field(file, surface, field);
+  file.fields = fields_of(surface);
+  const bool is_field_of_ensemble = !file.p_family_wise.empty() && file.potential_difference.empty();
+  if (!field.empty()) {
+    take_field(file, surface, field);
+  } else if (is_field_of_ensemble && file.fields.size() == 1) {
+    take_field(file, surface, file.fields.front());
+  }
   file.triangles = std::move(surface.triangles);
   file.positions = std::move(surface.positions);
   const auto& lost = file.unmatched;

@@ -35,6 +35,8 @@ struct SurfaceFile {
   std::string potential_unit;              ///< field data `potential_unit`
   std::string quantity = "potential";      ///< what the potentials are; of another field its label
   bool is_signed = true;                   ///< whether its sign means something
+  std::string field;                       ///< that stands in the place of the potential; empty for the potential
+  std::vector<std::string> fields;         ///< names of all that the file has
   std::string written_by;                  ///< field data `written_by`
   std::string array_names;                 ///< of the point arrays in the file, for messages
 
@@ -48,7 +50,8 @@ struct SurfaceFile {
 };
 
 /// Reads a VTK XML PolyData file (.vtp).
-/// @param field whose values stand in the place of the potentials; empty for the potential
+/// @param field whose values stand in the place of the potentials; empty for the potential, or for the only field of an
+///        ensemble's file OUT.NAME.vtp
 /// @throws InputError (no such field, with those there are)
 /// @throws IoError (missing, a directory), FormatError (not a .vtp file, truncated, no triangles, none matched)
 SurfaceFile read_surface_file(const std::string& path, const std::string& field = "");

@@ -206,11 +206,15 @@ void read_given_map(State& state) {
   state.map = std::make_shared<const Grid>(std::move(read.grid));
 }
 
+ComputedMap computed_map(const State& given, const PotentialPlan& plan, double temperature_K,
+                         const LoadedState& state) {
+  return given.potential ? own_map(*given.potential, state, temperature_K) : plan.map_of(state);
+}
+
 void add_map(const State& given, const PotentialPlan& plan, double temperature_K, ComparedState& state) {
   InputFile input = given.map_input;
   if (given.potential || plan.computes()) {
-    const ComputedMap map =
-        given.potential ? own_map(*given.potential, state.loaded, temperature_K) : plan.map_of(state.loaded);
+    const ComputedMap map = computed_map(given, plan, temperature_K, state.loaded);
     state.make_map = map.maker();
     input = computed_input({}, map);
   } else if (given.map != nullptr || given.make_map != nullptr) {

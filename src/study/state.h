@@ -125,6 +125,9 @@ class StateReader {
 /// Reads the map's file, if it is one that was not read yet. @throws as read_grid_file()
 void read_given_map(State& state);
 
+/// The potential of a state, of its own or by a plan that computes. @throws as PotentialPlan::map_of(), ComputedMap
+ComputedMap computed_map(const State& given, const PotentialPlan& plan, double temperature_K, const LoadedState& state);
+
 /// The map of one state, by a plan that was made before. @throws as read_grid_file(), ComputedMap
 void add_map(const State& given, const PotentialPlan& plan, double temperature_K, ComparedState& state);
 

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "base/text/formats.h"
 #include "io/files/read_input.h"
 #include "io/text/json_values.h"
 
@@ -37,6 +38,18 @@ ResultRecord::ResultRecord(const std::string& prefix) : path_(prefix + ".json") 
   if (!in) throw IoError(path_, "cannot be read; check its permissions");
   Json json = Json::parse(in, nullptr, false);
   if (json.is_discarded()) throw InputError(path_ + ": is not JSON, or is cut off; compare again");
+  const std::string format = json.is_object() && json.contains("format") && json["format"].is_string()
+                                 ? json["format"].get<std::string>()
+                                 : "";
+  if (format == kEnsembleFormat)
+    throw InputError(path_ + ": is the record of an ensemble, and `verify` recomputes comparisons of two states. " +
+                     "`ensemble` with " + option("from", "OUT.h5") +
+                     " checks the sum of each frame and makes the statistics again; compare two frames to verify a "
+                     "mapping");
+  if (format == kMatrixFormat)
+    throw InputError(path_ +
+                     ": is the record of a matrix, and `verify` recomputes comparisons of two states; compare " +
+                     "two of its variants, whose numbers are those of its cell, and verify that");
   if (!json.is_object() || !json.contains("certificate") || !json["certificate"].is_object() ||
       !json.contains("inputs") || !json["inputs"].is_array())
     throw InputError(path_ + ": is not the record of a comparison: it has no certificate, or no inputs; compare again");

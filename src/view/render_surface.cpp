@@ -62,7 +62,8 @@ std::vector<std::string> notes_on(const ComparisonFiles& files, const Scene& sce
   std::vector<std::string> notes;
   // Of computed potentials there are no maps, which is no surprise.
   const bool may_have_maps = !files.record.found || !files.record.maps_computed;
-  if (shows_potentials(scene) && !scene.per_vertex && scene.field.empty() && may_have_maps && !files.maps.complete()) {
+  if (shows_potentials(scene) && !scene.per_vertex && files.surface.field.empty() && may_have_maps &&
+      !files.maps.complete()) {
     notes.push_back("potentials are interpolated between vertices, not looked up in the maps: " + files.maps.why_not);
   }
   if (files.record.found && !files.record.trustworthy) {

@@ -6,6 +6,7 @@ namespace eval ::espdiff::gui {
     variable ensemble_run {}      ;# its arguments of `espdiff ensemble`: groups, options; replicates as in the form
     variable ensemble_patches {}  ;# its patches with their series
     variable ensemble_patch ""    ;# number of the chosen patch; empty for all
+    variable ensemble_field potential  ;# that is drawn
 
     proc build_ensemble_bar {path} {
         build_tab_bar ensemble $path compute Compare ::espdiff::gui::run_ensemble ::espdiff::gui::cancel_ensemble \
@@ -19,6 +20,9 @@ namespace eval ::espdiff::gui {
         wrapping_label $path.top.answer
         button $path.top.draw "Draw all" ::espdiff::gui::draw_ensemble
         button $path.top.table Table... ::espdiff::gui::ensemble_table
+        ttk::combobox $path.top.field -textvariable ::espdiff::gui::ensemble_field -state readonly -width 12 -values potential
+        bind $path.top.field <<ComboboxSelected>> {::espdiff::gui::guard_in ensemble ::espdiff::gui::draw_ensemble}
+        tip $path.top.field "What is drawn: the potential, or a field of this ensemble. The patches are the potential's"
         tip $path.top.draw "Draw the template: the difference of the groups, faded where it is not significant"
         tip $path.top.table "The answer as the command line prints it: replicates, noise, patches, residues, warnings"
         pack $path.top.table $path.top.draw -side right -padx {6 0}
@@ -41,7 +45,7 @@ namespace eval ::espdiff::gui {
         pack $path.top $path.patches -fill x -pady {0 4}
         pack $path.point -side bottom -fill x
         pack $path.plot -fill both -expand 1
-        foreach name {answer draw table} { set widget(ensemble,$name) $path.top.$name }
+        foreach name {answer draw table field} { set widget(ensemble,$name) $path.top.$name }
         foreach name {patches plot point} { set widget(ensemble,$name) $path.$name }
         show_ensemble_running
     }
@@ -131,6 +135,11 @@ namespace eval ::espdiff::gui {
         foreach patch $ensemble_patches {
             $widget(ensemble,patches) insert {} end -id [dict get $patch patch] -values [patch_cells $patch]
         }
+        set fields [::espdiff::value_or $result fields {}]
+        set ::espdiff::gui::ensemble_field potential
+        $widget(ensemble,field) configure -values [concat potential $fields]
+        pack forget $widget(ensemble,field)
+        if {[llength $fields] > 0 && [in_vmd]} { pack $widget(ensemble,field) -side right -after $widget(ensemble,draw) }
         show_ensemble_running
         draw_series
         if {[in_vmd]} { draw_ensemble }
@@ -203,7 +212,9 @@ namespace eval ::espdiff::gui {
         variable ensemble_shown
         lassign [::espdiff::ensemble_template $ensemble_shown] mol frame
         if {$mol ne ""} { show_molecule_alone $mol $frame }
+        variable ensemble_field
         set options [list -patch $patch]
+        if {$ensemble_field ne "potential"} { lappend options -field $ensemble_field }
         espdiff draw $ensemble_shown {*}$options
         remember ensemble draw [concat draw $options]
     }
@@ -217,6 +228,7 @@ namespace eval ::espdiff::gui {
         set chosen [lindex [$widget(ensemble,patches) selection] 0]
         if {$chosen eq "" || $chosen eq $ensemble_patch} return
         set ensemble_patch $chosen
+        set ::espdiff::gui::ensemble_field potential  ;# whose patches they are
         if {[in_vmd]} {
             draw_patch $chosen
             lassign [::espdiff::ensemble_template $ensemble_shown] mol

@@ -94,11 +94,10 @@ namespace eval ::espdiff {
 
     # The drawing's parameters, from options and handle: color, low, high, unit, colors, legend, and the core's options.
     proc drawing_plan {options handle} {
-        variable lengths
         variable plain_color
         variable marked_color
         set is_surface [expr {[dict get [core::status $handle] kind] eq "surface"}]
-        set color [drawn_quantity $handle [dict get $options color] $is_surface]
+        set color [drawn_quantity $handle [dict get $options color] $is_surface [dict get $options field]]
         set range [dict create low -1 high 1 unit ""]
         if {$color ne "none"} { set range [drawn_range $handle $color [shared_range $options $handle $color]] }
         set side [expr {[dict get $options surface] eq "mapped" ? "target" : "source"}]
@@ -109,9 +108,11 @@ namespace eval ::espdiff {
         if {!$is_plain} { dict set core limit [dict get $options uncertainty-limit] }
         if {[dict get [core::status $handle] kind] eq "ensemble"} {
             dict set range title [ensemble_title $handle $color]
+        } elseif {[string match *:* $color]} {
+            dict set range title [field_title $handle $color]
         }
         return [dict merge $range [dict create handle $handle color $color core $core \
-            colors [scale_colors [expr {$color in $lengths ? "sequential" : [dict get $options colors]}]] \
+            colors [scale_colors [expr {[starts_at_low_end $handle $color] ? "sequential" : [dict get $options colors]}]] \
             legend [expr {[dict get $options legend] && $color ne "none"}] beside [molecule_of $handle $side] \
             parts [drawn_parts $options $is_surface] key [legend_key $handle $options $is_surface]]]
     }
@@ -144,7 +145,13 @@ namespace eval ::espdiff {
         return [join $words "; "]
     }
 
-    proc drawn_quantity {handle color is_surface} {
+    # A quantity of a field is FIELD:QUANTITY.
+    proc drawn_quantity {handle color is_surface {field ""}} {
+        if {$field ne ""} {
+            if {$color eq "auto"} { set color difference }
+            if {$color eq "none"} { return none }
+            set color $field:$color
+        }
         if {$color eq "auto"} {
             set color [expr {$is_surface ? "potential" : "difference"}]
             if {![catch { core::range $handle $color }]} { return $color }
@@ -160,9 +167,28 @@ namespace eval ::espdiff {
         set found [core::range $handle $color]
         set unit [dict get $found unit]
         if {$range ne "auto"} { return [dict create low [lindex $range 0] high [lindex $range 1] unit $unit] }
-        if {$color eq "sign"} { return [dict create low -1 high 1 unit $unit] }
+        if {$color eq "sign" || [string match *:sign $color]} { return [dict create low -1 high 1 unit $unit] }
+        if {![dict get $found signed]} {
+            foreach {end key} {low p02 high p98} { set $end [dict get $found $key] }
+            if {!($high > $low)} { set high [expr {$low + 1}] }
+            return [dict create low $low high $high unit $unit]
+        }
         set high [dict get $found limit]
         return [dict create low [expr {$color in $lengths ? 0 : -$high}] high $high unit $unit]
+    }
+
+    # Whether a scale has no middle: lengths, and fields whose sign means nothing.
+    proc starts_at_low_end {handle color} {
+        variable lengths
+        expr {$color in $lengths || ($color ne "none" && ![dict get [core::range $handle $color] signed])}
+    }
+
+    # "Hydrophobicity (Kyte and Doolittle): difference, target - source", for the legend.
+    proc field_title {handle color} {
+        set words [dict create source "of the source" target "of the target" difference "difference, target - source" \
+            sign "sign, target against source"]
+        set quantity [lindex [split $color :] end]
+        return "[dict get [core::range $handle $color] label]: [dict get $words $quantity]"
     }
 
     # The parts of a drawing, a graphics molecule each, opaque ones first, because VMD draws in this order: name, how far its

@@ -44,8 +44,9 @@ namespace eval ::espdiff {
 
     # drawing_plan for each panel. Both potentials have the same range.
     proc panel_plans {options handle} {
-        set quantity [drawn_quantity $handle [dict get $options color] 0]
-        set has_potentials [expr {![catch { core::range $handle source }]}]
+        set field [dict get $options field]
+        set quantity [drawn_quantity $handle [dict get $options color] 0 $field]
+        set has_potentials [expr {![catch { core::range $handle [drawn_quantity $handle source 0 $field] }]}]
         set range [dict get $options potential-range]
         if {$has_potentials && $range eq "auto"} { set range [common_range $options $handle] }
         set plans [dict create]
@@ -58,14 +59,15 @@ namespace eval ::espdiff {
         return $plans
     }
 
-    # The widest range of both sides and of the results that share the scale, symmetric about 0.
+    # The widest range of both sides and of the results that share the scale.
     proc common_range {options handle} {
-        set high 0
         foreach side {source target} {
-            set range [shared_range [dict replace $options range auto] $handle $side]
-            set high [expr {max($high, [dict get [drawn_range $handle $side $range] high])}]
+            set side [drawn_quantity $handle $side 0 [dict get $options field]]
+            set found [drawn_range $handle $side [shared_range [dict replace $options range auto] $handle $side]]
+            lappend lows [dict get $found low]
+            lappend highs [dict get $found high]
         }
-        return [list [expr {-$high}] $high]
+        return [list [tcl::mathfunc::min {*}$lows] [tcl::mathfunc::max {*}$highs]]
     }
 
     # Adds molecules to the caller's dict, by panel and by `fixed` (titles and legends).
@@ -79,12 +81,15 @@ namespace eval ::espdiff {
         }
         set titles [dict create]
         dict for {panel place} $panels {
-            set title [expr {$panel eq "difference" ? [dict get $plans difference color] : [lindex $place 1]}]
+            set title [expr {$panel eq "difference" ? [lindex [split [dict get $plans difference color] :] end] : [lindex $place 1]}]
             dict set titles [lindex $place 0] [panel_title $handle $panel $title]
         }
         dict lappend made fixed [draw_panel_titles $handle $titles]
-        dict set plans target title Potential  ;# of both
-        if {[dict get $plans difference color] eq "difference"} { dict set plans difference title "Target - source" }
+        set color [dict get $plans target color]
+        dict set plans target title [expr {[string match *:* $color] ? [dict get [core::range $handle $color] label] : "Potential"}]
+        if {[regexp {(^|:)difference$} [dict get $plans difference color]]} {
+            dict set plans difference title "Target - source"
+        }
         foreach {panel middle room} {target -0.3333 0.6 difference 0.6667 0.3} {
             set plan [dict get $plans $panel]
             if {[dict get $plan color] eq "none" || ![dict get $plans difference legend]} continue

@@ -46,6 +46,9 @@ namespace eval ::espdiff {
         return [lindex $frames 0]
     }
 
+    # Numbers that VMD's atoms have, for fields of a comparison.
+    variable vmd_fields {user user2 user3 user4 beta occupancy mass charge radius}
+
     # All of the core's endpoint but the coordinates, and under `mol`, `n_atoms` and `sel` where they are: one look at
     # the structure serves all frames. The selection is that of the endpoint's frame. `given` are the names of the
     # atoms' fields that come along.

@@ -58,9 +58,12 @@ struct Runs {
   Outcome run(const std::string& arguments, const std::string& before = "") const {
     return run_espdiff(arguments + " --device cpu --threads 1", "cd " + folder.file("") + " && " + before);
   }
-  /// Merging takes no device.
+  /// Verbs that take no device.
+  Outcome read(const std::string& arguments, const std::string& before = "") const {
+    return run_espdiff(arguments, "cd " + folder.file("") + " && " + before);
+  }
   Outcome merge(const std::string& arguments, const std::string& before = "") const {
-    return run_espdiff("merge " + arguments, "cd " + folder.file("") + " && " + before);
+    return read("merge " + arguments, before);
   }
   Outcome run_merge() const {
     return merge("part.shard-1-of-3.h5 part.shard-2-of-3.h5 part.shard-3-of-3.h5 -q -o all");
@@ -229,6 +232,19 @@ TEST_CASE("fields have results of their own: found where they differ, resumed, s
   CHECK(missing.err ==
         "espdiff: all.donor.h5: no such file; --from all.h5 with --field donor reads the field's values "
         "there, and only a run that maps makes it\n");
+  const Outcome plot = in.read("plot out.e -o bars.svg");
+  REQUIRE_MESSAGE(plot.status == 0, plot.err);
+  const std::string picture = read_file(in.folder.file("bars.svg"));
+  CHECK(contains(picture, "mutant - wild, mean e of each residue"));
+  CHECK(contains(picture, "ALA 8 of chain A"));
+  CHECK(in.read("plot out.e.residues.csv --kind scatter -o scatter.svg").status == 0);
+  const Outcome verify = in.read("verify out.e");
+  CHECK(verify.status == 2);
+  CHECK_MESSAGE((contains(verify.err,
+                          "out.e.json: is the record of an ensemble, and `verify` recomputes comparisons of two "
+                          "states. `ensemble` with --from OUT.h5 checks the sum of each frame") ||
+                 contains(verify.err, "this build cannot verify")),
+                verify.err);
   const Outcome no_pattern = in.ensemble(in.groups + " --field water=map:w.dx -q -o none");
   CHECK(no_pattern.status != 0);
   CHECK(no_pattern.err.find('\n') == no_pattern.err.size() - 1);
@@ -780,6 +796,36 @@ TEST_CASE("a matrix through a template: two processes merge to the bytes of one,
   REQUIRE(out.status == 0);
   CHECK(contains(out.out, "through one template: medoid: w1:"));
   for (const char* ending : {".csv", ".json", ".h5"})
+    CHECK(read_file(in.folder.file(std::string("merged") + ending)) ==
+          read_file(in.folder.file(std::string("whole") + ending)));
+}
+
+TEST_CASE("a matrix through a template has fields: near the exact pairs, and the same bytes from two processes") {
+  const Runs in;
+  const std::string common =
+      "matrix w1.pqr --grid-spacing 1.5 --potential coulomb --field charge --field curvature --template medoid "
+      "--exact-sample 6 -q ";
+  const Outcome whole = in.run(common + "-o whole");
+  REQUIRE_MESSAGE(whole.status == 0, whole.err);
+  const auto json = nlohmann::json::parse(read_file(in.folder.file("whole.json")));
+  CHECK(json["fields"].size() == 2);
+  for (const char* name : {"charge_mean_abs_difference", "charge_rms_difference", "charge_hodgkin_index",
+                           "curvature_correlation", "curvature_rms_difference"}) {
+    const auto& agreement = json["template"]["exact"]["agreement"][name];
+    INFO(name);
+    REQUIRE(agreement["n"] == 6);
+    CHECK(std::fabs(agreement["exact_mean"].get<double>() - agreement["template_mean"].get<double>()) <=
+          0.3 * std::fabs(agreement["exact_mean"].get<double>()));
+  }
+  for (const char* shard : {"1/2", "2/2"}) REQUIRE(in.run(common + "-o part --shard " + shard).status == 0);
+  const auto merge = [&](const std::string& parts) {
+    return run_espdiff("merge " + parts + " -o merged", "cd " + in.folder.file("") + " && ");
+  };
+  CHECK(contains(merge("part.shard-?-of-2.h5 part.*.state").err, "the parts of the field charge are missing"));
+  CHECK(contains(merge("part.charge.shard-?-of-2.h5").err, "the parts of its matrix are missing"));
+  const Outcome merged = merge("part*.h5 part.*.state");
+  REQUIRE_MESSAGE(merged.status == 0, merged.err);
+  for (const char* ending : {".csv", ".json", ".h5", ".charge.h5", ".curvature.h5"})
     CHECK(read_file(in.folder.file(std::string("merged") + ending)) ==
           read_file(in.folder.file(std::string("whole") + ending)));
 }

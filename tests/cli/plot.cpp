@@ -190,12 +190,10 @@ TEST_CASE("wrong usage of plot exits 2 and writes nothing") {
            {table + " --source m0" + svg, "give its OUT.json"},
            {folder.write("alone.csv", "source,target,rmsd_A\na,b,1\n") + svg,
             "a matrix is drawn from its JSON file, and there is no " + folder.file("alone.json")},
-           {folder.write("e.csv", "residue,difference,significant_area_A2\nALA 1,2,0\n") + svg,
-            "is a table of an ensemble, which `espdiff report` and `render` show"},
            {folder.write("x.json", "{}") + svg, "not the JSON that `espdiff matrix` writes"}}) {
     const Outcome outcome = run_espdiff("plot " + wrong.first);
     CHECK_MESSAGE(outcome.status == 2, wrong.first);
     CHECK_MESSAGE(contains(outcome.err, wrong.second), outcome.err);
   }
-  CHECK(folder.n_files() == n_files + 3);
+  CHECK(folder.n_files() == n_files + 2);
 }

@@ -178,6 +178,22 @@ TEST_CASE("a map is read as the potential is, at the offset too") {
   }
 }
 
+TEST_CASE("a map that lies elsewhere compares nothing, which is said") {
+  const ScratchFolder folder;
+  const Side source = make_side(1, 0);
+  Grid away = source.map;
+  away.lattice.origin = away.lattice.origin + Vec3d{500, 0, 0};
+  espdiff::write_dx(folder.file("away.dx"), away);
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 1);
+  const CompareResult r = compared(*engine, source, source, with_fields({{"water", "map:" + folder.file("away.dx")}}));
+  CHECK(r.fields.at(0).metrics.area_A2 == 0);
+  const std::string n = std::to_string(r.surface.positions.size());
+  REQUIRE(!r.warnings.empty());
+  CHECK(r.warnings.back().text.plain() ==
+        "field water: no point has a value in both states (" + n + " vertices of the source and " + n +
+            " of the target have none), so that nothing was compared; a map has to lie where its structure does");
+}
+
 TEST_CASE("a field that only one state has is refused before the work") {
   const Side source = make_side(1, 0);
   Side target = make_side(1, 0.3);

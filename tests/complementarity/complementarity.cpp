@@ -61,7 +61,12 @@ espdiff::PotentialPlan plan_for(const LoadedState& state) {
 
 InterfaceOfComplex interface_of(espdiff::Engine& engine, const LoadedState& state,
                                 const std::string& partners = "A:B") {
-  return {engine, state, espdiff::parse_interface(partners), plan_for(state), {}, {}};
+  return {engine,
+          state,
+          espdiff::parse_interface(partners),
+          [plan = plan_for(state)](const LoadedState& charged) { return plan.map_of(charged); },
+          {},
+          {}};
 }
 
 std::string refused_interface(const std::string& partners) {
@@ -148,7 +153,7 @@ TEST_CASE("a complex does not differ from itself, and another charge has its res
   for (const auto& row : compared_with(to)) {
     if (row.side != 0 || std::fabs(row.change()) <= largest) continue;
     largest = std::fabs(row.change());
-    who = row.residue->chain + std::to_string(row.residue->number);
+    who = row.residue.chain + std::to_string(row.residue.number);
   }
   CHECK(who == "A2");
   CHECK(to.result().pearson < from.result().pearson - 0.1);

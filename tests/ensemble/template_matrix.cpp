@@ -71,7 +71,7 @@ class PlantedStates {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     file_->write(state, std::vector<float>(n_vertices(), kNoValue), {kNaN, 1, 1, kNaN, kNaN, kNaN, false, "it failed"});
   }
-  Matrix matrix() const { return espdiff::matrix_through_template(*file_, {}); }
+  Matrix matrix() const { return espdiff::matrix_through_template(*file_, {}, {}); }
 
  private:
   espdiff::TemplateSurface surface_;

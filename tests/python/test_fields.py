@@ -1,5 +1,6 @@
 """Fields of arrays: one for all states or one for each, in pairs, matrices, series and other processes."""
 
+import json
 import pickle
 
 import numpy as np
@@ -12,7 +13,7 @@ SHAPES = {**QUICK, "potential": "none"}
 
 
 def metric(result, name):
-    return result.to_dict()["fields"][name]
+    return result.fields[name]
 
 
 def test_constants_differ_by_their_difference_and_one_array_serves_both(made):
@@ -104,3 +105,12 @@ def test_atomgroups_take_arrays_of_their_length():
     assert metric(result, "x")["mean_signed_difference"] == pytest.approx(4, rel=1e-6)
     with pytest.raises(espdiff.InputError, match="there are 3 values for the"):
         espdiff.compare(*universes, **SHAPES, fields={"x": np.zeros(3)})
+
+
+def test_fields_of_a_result_are_those_of_its_file(made, tmp_path):
+    result = espdiff.compare(*made, **SHAPES, fields=["charge"])
+    assert list(result.fields) == ["charge"]
+    result.save(tmp_path / "out")
+    assert json.loads((tmp_path / "out.json").read_text())["fields"] == result.fields
+    assert result.interface is None
+    assert espdiff.compare(*made, **SHAPES).fields == {}

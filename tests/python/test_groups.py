@@ -1,5 +1,6 @@
 """ensemble() and espdiff.mda.Ensemble: the bytes of the command line, from files, AtomGroups, and in parts."""
 
+import json
 import glob
 import pathlib
 import subprocess
@@ -63,6 +64,18 @@ def test_statistics_of_an_earlier_run(whole, tmp_path):
     again = espdiff.ensemble(from_file=tmp_path / "out.h5", output=tmp_path / "again", alpha=0.2, permutations=20)
     assert np.array_equal(again.p, whole[0].p, equal_nan=True)
     assert again.to_dict()["options"]["alpha"] == 0.2
+
+
+def test_fields_are_ensembles_of_their_own(whole, program, tmp_path):
+    made = espdiff.ensemble(GROUPS, charges=CHARGES, output=tmp_path / "one", fields=["hydrophobicity"], **QUICK)
+    assert list(made.fields) == ["hydrophobicity"] and whole[0].fields == {}
+    field = made.fields["hydrophobicity"]
+    assert field.to_dict()["field"]["kind"] == "hydrophobicity"
+    assert set(field.means) == set(GROUPS) and field.p.shape == made.p.shape
+    record = json.loads((tmp_path / "one.hydrophobicity.json").read_text())
+    assert record["test"] == field.to_dict()["test"]
+    # The scale of Kyte and Doolittle goes from -4.5 to 4.5.
+    assert all(np.nanmax(np.abs(mean)) <= 4.5 + 1e-5 for mean in field.means.values())
 
 
 def test_regression_has_the_bytes_of_the_command_line(whole, program, tmp_path):

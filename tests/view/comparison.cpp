@@ -15,8 +15,10 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "base/error.h"
+#include "io/vtk/write_vtp.h"
 #include "view/comparison_scene.h"
 #include "view/display_here.h"
 #include "view/made_comparison.h"
@@ -416,4 +418,36 @@ TEST_CASE("a picture is named as what it is, and a focus is a part of the result
   const Outcome none = run_espdiff("render " + vtp + " --focus nose -o " + folder.file("x.png"));
   CHECK(none.status == 2);
   CHECK(contains(none.err, "--focus nose is no part of the result, which has end, region"));
+}
+
+TEST_CASE("the only field of an ensemble's file is drawn without being named, and two have to be") {
+  const ScratchFolder folder;
+  const std::vector<Vec3d> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<Triangle> triangles = {{0, 1, 2}};
+  const std::vector<float> source = {1, 2, 3}, target = {2, 4, 6}, difference = {1, 2, 3}, p = {0.01F, 0.2F, 1};
+  const auto write = [&](const char* name, const std::vector<std::string>& fields) {
+    VtpSurface surface;
+    surface.points = VtpArray("points", points);
+    surface.triangles = &triangles;
+    surface.point_arrays.emplace_back("p_family_wise", p);
+    for (const std::string& field : fields) {
+      surface.point_arrays.emplace_back(field + "_source", source);
+      surface.point_arrays.emplace_back(field + "_target", target);
+      surface.point_arrays.emplace_back(field + "_difference", difference);
+      surface.texts.emplace_back(field + "_label", "Label of " + field);
+      surface.texts.emplace_back(field + "_unit", "e");
+    }
+    std::ostringstream text;
+    write_vtp(text, surface);
+    return folder.write(name, text.str());
+  };
+  const SurfaceFile one = read_surface_file(write("one.vtp", {"charge"}));
+  CHECK(one.field == "charge");
+  CHECK(one.quantity == "Label of charge");
+  CHECK(one.values(RenderArray::kDifference) == difference);
+  const std::string both = write("both.vtp", {"charge", "donor"});
+  const SurfaceFile two = read_surface_file(both);
+  CHECK(contains(message_of([&] { two.values(RenderArray::kDifference); }),
+                 "draw one of its fields, field charge of charge, donor, or colour by another array"));
+  CHECK(read_surface_file(both, "donor").quantity == "Label of donor");
 }

@@ -60,4 +60,22 @@ test "what VMD's atoms do not have, and what is no number, is refused" {
     } {ESPDIFF INPUT} "the target" "comes without values"
 }
 
+test "a field is drawn in the place of the potential, by its own scale" {
+    set pair [espdiff compare [state 0] [state 2] -field {user {} charge {}} {*}$quick]
+    espdiff draw $pair -field user
+    set plan [dict get $::espdiff::drawn_plans $pair]
+    check_equal quantity [dict get $plan color] user:difference
+    check_equal title [dict get $plan title] "user: difference, target - source"
+    check "range" {[dict get $plan high] >= 19.9 && [dict get $plan low] == -[dict get $plan high]}
+    espdiff draw $pair -field charge -color source
+    check_equal source [dict get $::espdiff::drawn_plans $pair color] charge:source
+    set molecules [espdiff draw $pair -field charge -view linked]
+    check "three panels" {[llength $molecules] >= 3}
+    espdiff undraw $pair
+    check_refused { espdiff draw $pair -field hydrophobicity } {ESPDIFF INPUT} "has no field 'hydrophobicity'; it has user, charge"
+    check_refused { espdiff draw $pair -field user -color slip } {ESPDIFF INPUT} "'slip' is no quantity of a field"
+    set k [espdiff map $pair -quantity difference -mol $mol]
+    check "map of the potential" {$k >= 0}
+}
+
 finish

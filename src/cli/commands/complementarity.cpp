@@ -67,7 +67,9 @@ int complementarity_verb(const ComplementarityArguments& a, const Context& conte
   provenance.device = engine->back_end();
   std::vector<InterfaceOfComplex> interfaces;
   for (const LoadedState& state : states)
-    interfaces.emplace_back(*engine, state, request, plan, options, *context.progress);
+    interfaces.emplace_back(
+        *engine, state, request, [&plan](const LoadedState& charged) { return plan.map_of(charged); }, options,
+        *context.progress);
   ComplementarityResult result;
   result.request = request;
   for (const InterfaceOfComplex& interface : interfaces) result.states.push_back(&interface.result());
@@ -100,7 +102,7 @@ Verb add_complementarity(CLI::App& app) {
   parser->add_flag("--overwrite", a->overwrite, "Replace a result of this name, if there is one");
   add_computed_map_options(*parser, a->potential);
   add_structure_options(*parser, a->structure);
-  add_settings(*parser, a->settings, SettingsFor::kPair);
+  add_settings(*parser, a->settings, SettingsFor::kComplexes);
   add_device_options(*parser, a->device);
   set_help(*parser, {"--interface --output --overwrite --potential --select --ph --threads --quiet",
                      {"espdiff complementarity 1vfb.pdb --interface A,B:C -o d13",

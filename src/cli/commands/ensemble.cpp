@@ -80,9 +80,11 @@ int ensemble_verb(const EnsembleArguments& a, const Context& context) {
   for (const EnsembleReport& report : answer.reports) print_run(report, answer.device);
   if (answer.result == nullptr) return 0;
   print_ensemble(std::cout, *answer.file, *answer.result);
+  std::vector<std::string> said = answer.result->warnings;
   for (const FieldAnswer& field : answer.fields) {
     std::cout << "\n---- field " << field.name << " ----\n\n";
-    print_ensemble(std::cout, *field.file, *field.result);
+    print_ensemble(std::cout, *field.file, *field.result, said);
+    said.insert(said.end(), field.result->warnings.begin(), field.result->warnings.end());
   }
   std::cout << "\nwritten:";
   for (const std::string& path : answer.written) std::cout << ' ' << path;

@@ -146,10 +146,6 @@ LinePlot along_table(const PlotArguments& a, const CsvTable& table) {
   if (is_matrix_table(table))
     throw InputError(table.path + ": a matrix is drawn from its JSON file, and there is no " +
                      matrix_json_of(table.path) + "; give that file");
-  if (table.find("significant_area_A2") > 0 && a.metrics.empty())
-    throw InputError(table.path +
-                     ": is a table of an ensemble, which `espdiff report` and `render` show; its columns "
-                     "are drawn by --metric, such as --metric difference");
   if (table.rows.empty()) throw FormatError(table.path, 0, "there are no rows to draw");
   const std::string x_name = a.x.empty() ? (table.find("frame") >= 0 ? "frame" : table.columns.front()) : a.x;
   const std::size_t x = table.require(x_name);
@@ -193,6 +189,12 @@ StatePlot states_of(const PlotArguments& a, const PlotInput& input) {
   if (input.is_json || !is_pair_table(input.table))
     throw InputError(input.path + ": is no comparison's; --range-of takes results of one kind");
   return state_plot(input.table, a.kind == "bars", static_cast<std::size_t>(a.top), a.title, a.field);
+}
+
+StatePlot groups_of(const PlotArguments& a, const PlotInput& input) {
+  if (input.is_json || !is_ensemble_table(input.table))
+    throw InputError(input.path + ": is no ensemble's; --range-of takes results of one kind");
+  return group_plot(input.table, a.kind == "bars", static_cast<std::size_t>(a.top), a.title);
 }
 
 FrameMap frame_map_of(const PlotArguments&, const PlotInput& input) {
@@ -250,6 +252,13 @@ std::string plot_script(const PlotArguments& a, const PlotInput& input, PictureF
   }
   if (!input.is_json && is_pair_table(input.table)) {
     const StatePlot plot = with_shared_range(a, input, states_of);
+    return a.kind == "bars" ? state_bars_script(plot, format) : state_scatter_script(plot, format);
+  }
+  if (!input.is_json && is_ensemble_table(input.table) && a.metrics.empty() && a.x.empty() && a.field.empty()) {
+    if (a.normalize || !a.range.empty())
+      throw InputError("--normalize and --range are of other tables, and " + input.path +
+                       " is one of an ensemble's residues");
+    const StatePlot plot = with_shared_range(a, input, groups_of);
     return a.kind == "bars" ? state_bars_script(plot, format) : state_scatter_script(plot, format);
   }
   if (!a.field.empty())

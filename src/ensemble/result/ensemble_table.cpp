@@ -205,7 +205,8 @@ void print_states(std::ostream& out, const EnsembleFile& file, const EnsembleRes
 
 }  // namespace
 
-void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleResult& result) {
+void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleResult& result,
+                    const std::vector<std::string>& said) {
   const std::string& unit = file.plan().potential_unit;
   out << broken("conclusion   " + result.conclusion) << "\n\n";
   out << formatted("template     %s, %zu vertices, %.1f A2\n", file.plan().template_name.c_str(), file.n_vertices(),
@@ -235,7 +236,9 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
   print_ensemble_causes(out, result, unit);
   print_regression(out, result, unit);
   print_states(out, file, result);
-  for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';
+  for (const std::string& warning : result.warnings) {
+    if (std::find(said.begin(), said.end(), warning) == said.end()) out << "\nwarning: " << warning << '\n';
+  }
 }
 
 }  // namespace espdiff

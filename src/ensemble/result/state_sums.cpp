@@ -25,6 +25,8 @@ PairSums sums_of(const StateBlock& block, std::size_t i, std::size_t j, const do
     s.product += w * a[c] * b[c];
     s.first += w * a[c] * a[c];
     s.second += w * b[c] * b[c];
+    s.sum_first += w * a[c];
+    s.sum_second += w * b[c];
   }
   return s;
 }
@@ -38,6 +40,8 @@ void add(PairSums& sums, const PairSums& s) {
   sums.product += s.product;
   sums.first += s.first;
   sums.second += s.second;
+  sums.sum_first += s.sum_first;
+  sums.sum_second += s.sum_second;
 }
 
 double product_of(const StateBlock& block, std::size_t i, std::size_t j, const double* weights) {
@@ -58,6 +62,8 @@ Metrics PairSums::metrics() const {
   m.sign_change_area_fraction = area_A2 > 0 ? sign_change / area_A2 : kNaN;
   m.hodgkin_index = first + second > 0 ? 2 * product / (first + second) : kNaN;
   m.carbo_index = first > 0 && second > 0 ? product / std::sqrt(first * second) : kNaN;
+  const double spread = (first - sum_first * sum_first / area_A2) * (second - sum_second * sum_second / area_A2);
+  m.correlation = spread > 0 ? (product - sum_first * sum_second / area_A2) / std::sqrt(spread) : kNaN;
   m.mean_displacement_A = m.mean_path_length_A = kNaN;
   return m;
 }
@@ -67,6 +73,7 @@ Metrics StateSums::metrics(std::size_t source, std::size_t target) const {
   if (source > target) {
     sums.difference = -sums.difference;
     std::swap(sums.first, sums.second);
+    std::swap(sums.sum_first, sums.sum_second);
   }
   return sums.metrics();
 }

@@ -18,6 +18,7 @@ struct PairSums {
   double difference = 0;                      ///< b - a
   double sign_change = 0;                     ///< area where one is positive and the other negative
   double product = 0, first = 0, second = 0;  ///< a b, a a, b b
+  double sum_first = 0, sum_second = 0;       ///< a, b
 
   /// The metrics of a pair. Those that need the mapping from a to b itself, such as displacements, are NaN; so is
   /// everything where there is no area.

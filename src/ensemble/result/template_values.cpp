@@ -50,7 +50,7 @@ TemplateState state_of(const EnsembleFrame& frame) {
 /// Makes the cells of all pairs.
 class Cells {
  public:
-  Cells(const EnsembleFile& file, Matrix& matrix)
+  Cells(const EnsembleFile& file, const std::vector<EnsembleFile>& fields, Matrix& matrix)
       : file_(file),
         matrix_(matrix),
         parts_(matrix.plan.parts()),
@@ -61,7 +61,8 @@ class Cells {
       row_of_[i] = frames_.size();
       frames_.push_back(i);
     }
-    add_up();
+    add_up("", file);
+    for (const EnsembleFile& field : fields) add_up(field.plan().field->quantity.name, field);
   }
 
   void make() {
@@ -70,19 +71,26 @@ class Cells {
   }
 
  private:
+  /// Sums of a field, empty for the potential, over the whole surface or a part.
+  struct Sums {
+    std::string field, part;
+    StateSums of;
+  };
+
   /// The whole surface, then each patch.
-  void add_up() {
-    sums_.push_back(sum_states(file_, frames_, graph_.area));
+  void add_up(const std::string& field, const EnsembleFile& file) {
+    sums_.push_back({field, "", sum_states(file, frames_, graph_.area)});
     if (parts_.empty()) return;
     std::vector<std::pair<std::string, std::string>> given;
     for (const auto& setting : matrix_.plan.settings) {
       if (setting.first == "patch") given.push_back(setting);
     }
+    std::size_t k = 0;
     for (FixedPatch& patch : fixed_patches(make_options(given), residues_of_template(file_.plan()))) {
       const std::vector<std::uint8_t> inside = vertices_on_template(patch, file_.surface(), file_.plan().residues);
       std::vector<double> weights(graph_.area.size(), 0);
       for (std::size_t v = 0; v < weights.size(); ++v) weights[v] = inside[v] != 0 ? graph_.area[v] : 0;
-      sums_.push_back(sum_states(file_, frames_, weights));
+      sums_.push_back({field, parts_[k++], sum_states(file, frames_, weights)});
     }
   }
 
@@ -110,16 +118,16 @@ class Cells {
       cell.reasons.clear();
       return cell;
     }
-    for (std::size_t k = 0; k < sums_.size(); ++k)
-      set_values(cell, k == 0 ? std::string() : parts_[k - 1],
-                 sums_[k].metrics(row_of_.at(pair.first), row_of_.at(pair.second)));
+    for (const Sums& sums : sums_)
+      set_values(cell, sums, sums.of.metrics(row_of_.at(pair.first), row_of_.at(pair.second)));
     return cell;
   }
 
-  void set_values(MatrixCell& cell, const std::string& part, const Metrics& metrics) const {
+  void set_values(MatrixCell& cell, const Sums& sums, const Metrics& metrics) const {
     for (std::size_t m = 0; m < cell.values.size(); ++m) {
       const Metric& metric = matrix_.metrics()[m];
-      if (matrix_.gives(m) && metric.part == part) cell.values[m] = metrics.*metric.source.of_area;
+      if (matrix_.gives(m) && metric.part == sums.part && metric.field == sums.field)
+        cell.values[m] = metrics.*metric.source.of_area;
     }
   }
 
@@ -130,7 +138,7 @@ class Cells {
     std::size_t n = 0;
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j, ++n) {
-        const double area = sums_.front().pairs[StateSums::place(i, j)].area_A2;
+        const double area = sums_.front().of.pairs[StateSums::place(i, j)].area_A2;
         sum += area;
         least = std::min(least, area);
       }
@@ -145,7 +153,7 @@ class Cells {
   MeshGraph graph_;
   std::vector<std::size_t> frames_;            // that have values
   std::map<std::size_t, std::size_t> row_of_;  // by frame: its place in frames_
-  std::vector<StateSums> sums_;                // of the whole surface and of each part
+  std::vector<Sums> sums_;                     // of the potential first
 };
 
 }  // namespace
@@ -179,8 +187,10 @@ std::vector<MatrixCell> sampled(const MatrixPlan& plan, std::size_t n_exact, con
   return chosen;
 }
 
-Matrix matrix_through_template(const EnsembleFile& file, std::vector<MatrixCell> exact) {
+Matrix matrix_through_template(const EnsembleFile& file, const std::vector<EnsembleFile>& fields,
+                               std::vector<MatrixCell> exact) {
   require_states(file);
+  for (const EnsembleFile& field : fields) require_states(field);
   const EnsemblePlan& plan = file.plan();
   Matrix matrix{*plan.matrix, {}, ThroughTemplate{}};
   ThroughTemplate& through = *matrix.through;
@@ -189,7 +199,7 @@ Matrix matrix_through_template(const EnsembleFile& file, std::vector<MatrixCell>
   through.n_vertices = file.n_vertices();
   through.settings = plan.settings;
   through.exact = std::move(exact);
-  Cells(file, matrix).make();
+  Cells(file, fields, matrix).make();
   return matrix;
 }
 

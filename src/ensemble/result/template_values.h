@@ -20,8 +20,10 @@ std::vector<MatrixCell> sampled(const MatrixPlan& plan, std::size_t n_exact, con
 /// The matrix of a complete file that run_template_matrix() made: each pair over the vertices that both states have,
 /// with the weights of the template's surface. The two directions of a pair have the same values. A cell is trustworthy
 /// if the template's mapping onto both states is.
-/// @param exact the sampled() pairs
+/// @param fields complete files of the plan's fields, in its order
+/// @param exact  the sampled() pairs
 /// @throws InputError (states are missing; a patch of the plan has no place on the template)
-Matrix matrix_through_template(const EnsembleFile& file, std::vector<MatrixCell> exact);
+Matrix matrix_through_template(const EnsembleFile& file, const std::vector<EnsembleFile>& fields,
+                               std::vector<MatrixCell> exact);
 
 }  // namespace espdiff

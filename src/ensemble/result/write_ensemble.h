@@ -41,7 +41,8 @@ std::vector<std::string> write_ensemble(const std::string& output_prefix, const 
 /// warnings.
 nlohmann::ordered_json ensemble_json(const EnsembleFile& file, const EnsembleResult& result);
 
-/// The answer in at most 100 columns.
-void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleResult& result);
+/// The answer in at most 100 columns. @param said warnings that were printed already
+void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleResult& result,
+                    const std::vector<std::string>& said = {});
 
 }  // namespace espdiff

@@ -15,23 +15,9 @@ namespace espdiff {
 namespace {
 
 [[noreturn]] void refuse_as_grid(const std::string& path, FileKind kind) {
-  std::string remedy = "give an OpenDX, cube, CCP4 or VTI file";
-  switch (kind) {
-    case FileKind::kVtkXml:
-    case FileKind::kVtkLegacy: remedy = "save it as image data (.vti)"; break;
-    case FileKind::kAtomRecords:
-    case FileKind::kMmcif:
-    case FileKind::kMmjson:
-    case FileKind::kBinaryCif:
-    case FileKind::kMmtf:
-    case FileKind::kMol2:
-    case FileKind::kPsf:
-    case FileKind::kPrmtop:
-    case FileKind::kDcd:
-    case FileKind::kNetcdf: remedy = "that is no map; " + remedy; break;
-    default: break;
-  }
-  throw InputError(path + ": this looks like " + describe(kind) + ", which is not read as a map; " + remedy);
+  const bool is_vtk = kind == FileKind::kVtkXml || kind == FileKind::kVtkLegacy;
+  throw InputError(path + ": this looks like " + describe(kind) + ", which is not read as a map; " +
+                   (is_vtk ? "save it as image data (.vti)" : "give an OpenDX, cube, CCP4 or VTI file"));
 }
 
 /// Only VTI files have named arrays.

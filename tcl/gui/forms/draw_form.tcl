@@ -3,7 +3,7 @@
 namespace eval ::espdiff::gui {
     variable form
     array set form {
-        draw,color difference draw,surface target draw,range auto draw,low -5 draw,high 5
+        draw,color difference draw,field potential draw,surface target draw,range auto draw,low -5 draw,high 5
         draw,uncertain fade draw,limit 2.0 draw,off_target uncertain draw,legend 1 draw,colors red-blue draw,view single draw,mol "" draw,keep 0
         draw,pick 0
     }
@@ -14,13 +14,21 @@ namespace eval ::espdiff::gui {
         variable widget
         ttk::labelframe $path -text Draw -padding {6 3}
         set variable ::espdiff::gui::form
-        ttk::combobox $path.color -textvariable ${variable}(draw,color) -state readonly -width 12 \
+        ttk::frame $path.what
+        ttk::combobox $path.what.color -textvariable ${variable}(draw,color) -state readonly -width 12 \
             -values {difference sign source target slip displacement path_length none}
-        bind $path.color <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::update_draw}
-        form_row $path 0 "Colour by" $path.color "difference: target - source;\
+        ttk::label $path.what.of -text of
+        ttk::combobox $path.what.field -textvariable ${variable}(draw,field) -state readonly -width 10 -values potential
+        foreach name {color field} {
+            bind $path.what.$name <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::update_draw}
+        }
+        form_row $path 0 "Colour by" $path.what ""
+        tip $path.what.color "difference: target - source;\
             sign: where it changed; source, target: the potentials; slip: how far each point is from where its own\
             atoms went; displacement: how far each point travelled,\
             path_length: the path length"
+        tip $path.what.field "What differs: the potential, or a field that was compared (Settings, Input, Field)"
+        pack $path.what.color -side left -fill x -expand 1
         ttk::combobox $path.surface -textvariable ${variable}(draw,surface) -state readonly -width 12 \
             -values {target source}
         form_row $path 0 "on the" $path.surface "Surface to colour: mapped onto the target, or on the source" 2
@@ -71,8 +79,9 @@ namespace eval ::espdiff::gui {
         build_draw_buttons $path.buttons
         grid $path.buttons -row 4 -column 0 -columnspan 4 -sticky ew -pady {4 0}
         grid configure $path.label_surface -padx {16 6}
-        grid columnconfigure $path {1 3} -weight 1 -uniform field
-        foreach name {color surface corrupt} { set widget(draw,$name) $path.$name }
+        grid columnconfigure $path {1 3} -weight 1
+        foreach name {surface corrupt} { set widget(draw,$name) $path.$name }
+        foreach name {color of field} { set widget(draw,$name) $path.what.$name }
         foreach name {low high} { set widget(draw,$name) $path.range.$name }
     }
 
@@ -115,7 +124,7 @@ namespace eval ::espdiff::gui {
         variable shown
         variable recolouring
         if {$shown eq "" || $form(draw,color) in {sign none}} return
-        lassign [dict values [::espdiff::drawn_range $shown $form(draw,color) auto]] low high
+        lassign [dict values [::espdiff::drawn_range $shown [chosen_quantity] auto]] low high
         set factor [expr {10.0 ** $place}]
         foreach {end value} [list low $low high $high] {
             set form(draw,$end) [format %.3g [expr {$factor * $value}]]
@@ -160,8 +169,16 @@ namespace eval ::espdiff::gui {
         set_enabled $is_shown $widget(draw) $widget(undraw) $widget(map)
         set unit [expr {$is_shown ? [potential_unit] : ""}]
         set has_potentials [expr {$unit ne "" || !$is_shown}]
+        set fields [expr {$is_shown ? [dict get [espdiff result $shown] fields] : {}}]
+        offer_fields [concat [expr {$has_potentials ? "potential" : ""}] [dict keys $fields]]
         set colors {slip displacement path_length none}
-        if {$has_potentials} { set colors [concat {difference sign source target} $colors] }
+        if {[dict exists $fields $form(draw,field)]} {
+            set field [dict get $fields $form(draw,field)]
+            set unit [dict get $field unit]
+            set colors [concat difference [expr {[dict get $field signed] ? "sign" : ""}] {source target} $colors]
+        } elseif {$has_potentials} {
+            set colors [concat {difference sign source target} $colors]
+        }
         $widget(draw,color) configure -values $colors
         if {$form(draw,color) ni $colors} { set form(draw,color) slip }
         switch $form(draw,color) {
@@ -176,11 +193,37 @@ namespace eval ::espdiff::gui {
         }
     }
 
+    # Which field is drawn can be chosen where there are several.
+    proc offer_fields {names} {
+        variable form
+        variable widget
+        $widget(draw,field) configure -values $names
+        if {$form(draw,field) ni $names} { set form(draw,field) [lindex [concat $names potential] 0] }
+        pack forget $widget(draw,of) $widget(draw,field)
+        if {[llength $names] > 1 || [lindex [concat $names potential] 0] ne "potential"} {
+            pack $widget(draw,of) $widget(draw,field) -side left -padx {4 0}
+        }
+    }
+
+    # The field that the form draws; empty for the potential, and for what no field has.
+    proc chosen_field {} {
+        variable form
+        expr {$form(draw,field) eq "potential" || $form(draw,color) ni {difference sign source target} ? "" : $form(draw,field)}
+    }
+
+    # As the core names it.
+    proc chosen_quantity {} {
+        variable form
+        set field [chosen_field]
+        expr {$field eq "" ? $form(draw,color) : "$field:$form(draw,color)"}
+    }
+
     # The form as options of `espdiff draw`, without defaults.
     proc draw_options {} {
         variable form
         variable drawn_on
         set options [list -color $form(draw,color)]
+        if {[chosen_field] ne ""} { lappend options -field [chosen_field] }
         if {$form(draw,range) eq "given"} {
             lappend options -range [list [string trim $form(draw,low)] [string trim $form(draw,high)]]
         }

@@ -94,7 +94,44 @@ namespace eval ::espdiff::gui {
             default { ttk::entry $path -textvariable $variable -width 10 }
         }
         set widget(setting,$name) $path
+        if {$name eq "field"} { set path [build_field_menu $path] }
         form_row $page $grid_row [setting_label $name] $path "$help (default $default)" $column
+    }
+
+    # Fields to choose from beside the entry: the kinds, and in VMD the atoms' own values.
+    proc build_field_menu {entry} {
+        set frame [ttk::frame [winfo parent $entry].field_row]
+        ttk::menubutton $frame.add -text Add -menu $frame.add.menu
+        menu $frame.add.menu -tearoff 0
+        foreach kind [::espdiff::core::field_kinds] {
+            # Some take an argument, which is typed, or come with `interface`; VMD's atoms have the last three below.
+            if {$kind in {residues atoms given map distance complementarity}} continue
+            if {[in_vmd] && $kind in {b-factor occupancy confidence}} continue
+            $frame.add.menu add command -label $kind -command [list ::espdiff::gui::add_field $kind]
+        }
+        if {[in_vmd]} {
+            $frame.add.menu add cascade -label "Atoms' values in VMD" -menu $frame.add.menu.vmd
+            menu $frame.add.menu.vmd -tearoff 0
+            foreach name $::espdiff::vmd_fields {
+                set kind [expr {$name in [::espdiff::core::field_kinds] ? "given:$name" : ""}]
+                $frame.add.menu.vmd add command -label $name -command [list ::espdiff::gui::add_field $name $kind]
+            }
+        }
+        tip $frame.add "Compare another quantity as well; its name and kind are added to the list, NAME KIND"
+        lower $frame $entry
+        pack $entry -in $frame -side left -fill x -expand 1
+        pack $frame.add -side left -padx {4 0}
+        return $frame
+    }
+
+    # Adds NAME KIND to the list of fields, once.
+    proc add_field {name {kind ""}} {
+        variable setting
+        set fields [string trim $setting(field)]
+        if {![string is list $fields]} { error "Field: '$fields' is not a list NAME KIND ...; clear it first" }
+        if {[llength $fields] == 1} { lappend fields {} }
+        if {[dict exists $fields $name]} return
+        set setting(field) [concat $fields [list $name $kind]]
     }
 
     # What a setting's field is called; those of the regularization stand on a page of that name.

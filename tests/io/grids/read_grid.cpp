@@ -38,8 +38,7 @@ TEST_CASE("read_grid: a unit that is not the file's is taken, and the file's is 
 
 TEST_CASE("read_grid: other formats are refused by name, with a remedy") {
   const std::pair<const char*, const char*> files[] = {
-      {"tim/2YPI.pdb",
-       "a PDB or PQR structure, which is not read as a map; that is no map; give an OpenDX, cube, CCP4 or VTI file"},
+      {"tim/2YPI.pdb", "a PDB or PQR structure, which is not read as a map; give an OpenDX, cube, CCP4 or VTI file"},
       {"calb/1TCA.pdb", "an mmCIF file, which is not read as a map"},
       {"traj_adk/adk_dims.dcd", "a DCD trajectory, which is not read as a map"},
       {"tim/dTIM_seq.csv",

@@ -8,6 +8,9 @@
 
 namespace espdiff {
 
+/// The field that an interface is compared by.
+constexpr const char* kComplementarity = "complementarity";
+
 /// The partners, as chains "H,L" or as selections "//A;polymer".
 struct InterfaceRequest {
   std::string first, second;

@@ -1,5 +1,5 @@
 // interface_request.cpp: partners of an interface from chains or selections.
-#include "complementarity/interface_request.h"
+#include "field/interface_request.h"
 
 #include <algorithm>
 #include <cctype>
