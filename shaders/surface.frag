@@ -24,12 +24,15 @@ in float slipFS;
 in float uncertaintyFS;
 flat in float residueIndexFS;
 in vec3 bordersFS;
+in vec4 reasonsAFS;
+in vec4 reasonsBFS;
 
 uniform sampler3D sourceMap;
 uniform sampler3D targetMap;
 uniform vec4 fade;            // uncertainties of greatest and of least opacity, least opacity, greatest opacity
 uniform vec2 shownColumns;    // window columns from, to: the sides of a split view
 uniform float hatchPitch;     // pixels
+uniform vec3 reasonColours[9];
 
 #include "sample_map.glsl"
 #include "colour_maps.glsl"
@@ -37,7 +40,7 @@ uniform float hatchPitch;     // pixels
 
 const float tearEdge = -0.4;  // of bordersFS.x: inside a tear there is no surface
 const int kDifference = 0, kSource = 1, kTarget = 2, kSign = 3, kDisplacement = 4, kMagnitude = 5, kResidue = 6,
-          kPlain = 7, kSlip = 8, kReadBack = 9;
+          kPlain = 7, kSlip = 8, kWhy = 9, kReadBack = 10;
 
 /// Source and target potential here, as far as they are drawn; z is 1 if the drawn quantity has a value.
 vec3 potentials()
@@ -48,8 +51,23 @@ vec3 potentials()
   return vec3(source.x, target.x, source.y * target.y);
 }
 
+/// Of the reason that most of the surroundings have.
+vec3 reasonColour()
+{
+  int most = 0;
+  float share = 1.0 - dot(reasonsAFS, vec4(1.0)) - dot(reasonsBFS, vec4(1.0));
+  for (int r = 0; r < 8; ++r) {
+    float here = r < 4 ? reasonsAFS[r] : reasonsBFS[r - 4];
+    if (here <= share) continue;
+    share = here;
+    most = r + 1;
+  }
+  return reasonColours[most];
+}
+
 vec3 surfaceColour()
 {
+  if (colourBy == kWhy) return reasonColour();
   if (colourBy == kPlain) return plainColour;
   if (colourBy == kResidue) return residueColour(residueIndexFS);
   if (colourBy == kDisplacement) return displacementFS < 0.0 ? noValueColour : scaleColour(displacementFS);

@@ -11,6 +11,8 @@ in float slip;               // Angstrom; negative: unknown
 in float uncertainty;        // Angstrom, smoothed; negative: unknown
 in float residueIndex;       // negative: none
 in vec3 borders;             // shares of matched, outlined, trusted surroundings; borders lie at 0.5
+in vec4 reasonsA;            // shares of surroundings by reason: slipped, on another residue, turned, disagrees;
+in vec4 reasonsB;            // off the target, without partner, without potential, side chain turned; the rest: trusted
 
 uniform mat4 MCDCMatrix;     // names that VTK's mapper sets
 uniform mat4 MCVCMatrix;
@@ -27,6 +29,8 @@ out float slipFS;
 out float uncertaintyFS;
 flat out float residueIndexFS;
 out vec3 bordersFS;
+out vec4 reasonsAFS;
+out vec4 reasonsBFS;
 
 void main()
 {
@@ -42,4 +46,6 @@ void main()
   uncertaintyFS = uncertainty;
   residueIndexFS = residueIndex;
   bordersFS = borders;
+  reasonsAFS = reasonsA;
+  reasonsBFS = reasonsB;
 }

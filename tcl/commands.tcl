@@ -124,8 +124,8 @@ namespace eval ::espdiff {
     command draw [dict create arguments {handle} settings none run ::espdiff::draw options {
             {-color choice auto "Quantity shown; auto is difference (for a surface, potential), or slip without\
                 potentials. difference: target - source; sign: where it changed; slip: distance of each point from where its own atoms went; potential is for surfaces; path_length: length of each point's path,\
-                at least its displacement"
-                {auto difference sign source target potential slip displacement path_length none}}
+                at least its displacement; why: where it is trusted, and one colour for each reason why not"
+                {auto difference sign source target potential slip displacement path_length why none}}
             {-field text "" "A field in the place of the potential: a name of `compute -field`; -color is difference,\
                 sign, source or target of it (of an ensemble also t)"}
             {-range range auto "Values at the ends of the colour scale; auto is symmetric about 0 and covers 90 % of\

@@ -12,6 +12,7 @@
 #include "io/files/check_outputs.h"
 #include "io/grids/write_grid.h"
 #include "report/difference_map.h"
+#include "scene/reasons.h"
 #include "tcl_values.h"
 #include "vertex_quantity.h"
 #include "volume_store.h"
@@ -74,6 +75,8 @@ DrawnSurface drawn_surface(const std::string& handle, const Object& object, cons
                               why != static_cast<std::uint8_t>(Why::kUnmatched));
   drawn.unmatched = &s.unmatched;
   drawn.uncertainty = &vertex_uncertainty(s);
+  drawn.why = &s.why;
+  drawn.turned = &s.turned;
   return drawn;
 }
 
@@ -103,6 +106,7 @@ DrawnPart parse_part(DictReader& reader) {
   part.plain = reader.integer("plain", 8);
   part.marked = reader.integer("marked", 4);
   part.light = reader.integer("light", kMostColourId);
+  part.reason = reader.integer("reason", -1);
   if (part.corrupt != "normal" && part.corrupt != "uncertain" && part.corrupt != "mark" && part.corrupt != "hide")
     throw InputError("corrupt: '" + part.corrupt + "' is not normal, uncertain, mark or hide");
   if (!(part.limit_A >= 0) || !(part.to > part.from))
@@ -125,6 +129,8 @@ Tcl_Obj* triangles(const Call& call) {
     throw InputError("range: " + formatted(low) + " to " + formatted(high) + " is not from a lower to a higher value");
   const DrawnPart part = parse_part(reader);
   reader.finish();
+  if (part.reason >= static_cast<int>(kNumberOfDrawnReasons) || (part.reason >= 0 && surface.why == nullptr))
+    throw InputError("reason: " + formatted(part.reason) + " is none of this surface");
 
   std::vector<float> values(surface.positions.size(), std::numeric_limits<float>::quiet_NaN());
   if (color != "none") values = vertex_quantity(handle, *object, color).values;
@@ -145,6 +151,21 @@ Tcl_Obj* triangles(const Call& call) {
   draw(cut.dark, std::vector<int>(n_vertices, part.plain));
   draw(cut.light, std::vector<int>(n_vertices, part.light));
   return to_obj(n_drawn);
+}
+
+/// What a comparison's surface is drawn as by reason: number, words and share of the source's surface, of each that
+/// occurs.
+Tcl_Obj* reasons(const Call& call) {
+  const auto comparison = call.handles.finished_comparison(call.text(0));
+  const MappedSurface& s = comparison->result.surface;
+  const auto areas = areas_of_reasons({s.triangles, s.why, s.turned}, s.source_positions);
+  Tcl_Obj* const list = Tcl_NewListObj(0, nullptr);
+  for (std::size_t r = 0; r < areas.size(); ++r) {
+    if (!(areas[r] > 0)) continue;
+    for (Tcl_Obj* entry : {to_obj(r), to_obj(std::string(kDrawnReasons[r].words)), to_obj(areas[r])})
+      Tcl_ListObjAppendElement(nullptr, list, entry);
+  }
+  return list;
 }
 
 /// The quantity carried onto a lattice around the mapped surface.
@@ -181,7 +202,8 @@ Tcl_Obj* put_map(const Call& call) {
 }  // namespace
 
 std::vector<Command> drawing_commands() {
-  return {{"triangles", 3, 3, "handle molecule options", triangles},
+  return {{"reasons", 1, 1, "handle", reasons},
+          {"triangles", 3, 3, "handle molecule options", triangles},
           {"put_map", 3, 3, "handle quantity spacing", put_map},
           {"write_map", 4, 4, "handle quantity spacing file", write_map}};
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/smooth_field.h"
+#include "scene/reasons.h"
 
 namespace espdiff::vmdplugin {
 namespace {
@@ -28,6 +29,19 @@ std::vector<float> relative_uncertainty(const DrawnSurface& surface, const Drawn
   return result;
 }
 
+/// [vertex] how much larger the share of a reason is than that of any other: its part begins at 0.
+std::vector<float> lead_of_reason(const DrawnSurface& surface, std::size_t reason) {
+  const auto shares = shares_of_reasons({*surface.triangles, *surface.why, *surface.turned}, surface.positions.size());
+  std::vector<float> lead = shares.at(reason);
+  for (std::size_t v = 0; v < lead.size(); ++v) {
+    float other = 0;
+    for (std::size_t r = 0; r < shares.size(); ++r)
+      if (r != reason) other = std::max(other, shares[r][v]);
+    lead[v] -= other;
+  }
+  return lead;
+}
+
 class PartCutter {
  public:
   PartCutter(const DrawnSurface& surface, const DrawnPart& part, std::vector<float> values)
@@ -39,6 +53,7 @@ class PartCutter {
     corrupt_ = clipped_.add_field(corrupt);
     unmatched_ = clipped_.add_field(has_unmatched() ? flagged_share(*surface.triangles, *surface.unmatched, n)
                                                     : std::vector<float>(n, 0));
+    if (part.reason >= 0) reason_ = clipped_.add_field(lead_of_reason(surface, static_cast<std::size_t>(part.reason)));
     std::vector<float> stripes;
     stripes.reserve(n);
     for (const Vec3f p : surface.positions) stripes.push_back((p.x + p.y + p.z) / (1.732F * kStripes_A));
@@ -68,6 +83,7 @@ class PartCutter {
   bool has_unmatched() const { return surface_.unmatched != nullptr && !surface_.unmatched->empty(); }
 
   void cut_matched(Polygon polygon) {
+    if (part_.reason >= 0) polygon = clipped_.keep_above(polygon, reason_, 0);
     if (part_.from > 0) polygon = clipped_.keep_above(polygon, uncertainty_, part_.from);
     polygon = clipped_.keep_below(polygon, uncertainty_, part_.to);
     if (part_.corrupt == "mark")
@@ -97,7 +113,7 @@ class PartCutter {
   const DrawnPart& part_;
   CutPart drawn_;
   ClippedSurface& clipped_ = drawn_.surface;
-  ClippedSurface::FieldId uncertainty_ = 0, corrupt_ = 0, unmatched_ = 0, stripes_ = 0;
+  ClippedSurface::FieldId uncertainty_ = 0, corrupt_ = 0, unmatched_ = 0, stripes_ = 0, reason_ = 0;
 };
 
 }  // namespace

@@ -18,7 +18,9 @@ struct DrawnSurface {
   const std::vector<std::uint8_t>* unmatched = nullptr;  ///< [triangle] null or empty for none
   bool has_unmatched_positions = false;                  ///< whether unmatched triangles can be drawn
   float border = 0.5F;  ///< share of unmatched triangles around the line at which the unmatched part begins
-  const std::vector<float>* uncertainty = nullptr;  ///< [vertex] null where nothing was mapped
+  const std::vector<float>* uncertainty = nullptr;    ///< [vertex] null where nothing was mapped
+  const std::vector<std::uint8_t>* why = nullptr;     ///< [triangle] and
+  const std::vector<std::uint8_t>* turned = nullptr;  ///< [vertex] of a comparison; null of other surfaces
 };
 
 /// What one call of `triangles` draws.
@@ -27,6 +29,7 @@ struct DrawnPart {
   float from = 0, to = 1e9;  ///< the band of uncertainty, in units of the limit
   std::string corrupt;   ///< uncertain: parts that are not trusted have the greatest uncertainty; mark, hide, normal
   bool hatches = false;  ///< draws unmatched parts, hatched
+  int reason = -1;       ///< draws only what has this reason (kDrawnReasons); -1 for all
   int plain = 0, marked = 0, light = 0;  ///< colour ids: no value, parts that are not trusted, light stripes
 };
 

@@ -42,6 +42,7 @@ class Options(TypedDict, total=False):
     temperature: float
     trust_maps: bool
     require: float
+    leave_out_turned: bool
     grid_spacing: float
     radius_scale: float
     isovalue: float

@@ -188,7 +188,7 @@ void add_comparison(nb::module_& module) {
       .def_prop_ro(
           "why", array_of(&S::why),
           "(triangles) uint8: 0 where it is trusted; 1 unmatched, 2 corrupt, 3 unpaired, 4 slipped, 5 on another "
-          "residue, 6 its residue disagrees, 7 without a potential.")
+          "residue, 6 its residue disagrees, 7 without a potential, 8 turned.")
       .def_prop_ro("target_residue_index", array_of(&S::target_residue),
                    "(vertices) int32: the target's residue where a vertex is mapped to; -1 for none.")
       .def_prop_ro("unmatched", array_of(&S::unmatched),

@@ -155,7 +155,8 @@ std::string shares_not_trusted(const TrustedArea& trusted) {
   constexpr double kLeastNamed = 0.01;
   static constexpr const char* kWords[kNumberOfWhys] = {
       "",        "unmatched",          "not on the target's surface", "without a partner",
-      "slipped", "on another residue", "of residues that disagree",   "without a potential"};
+      "slipped", "on another residue", "of residues that disagree",   "without a potential",
+      "turned"};
   std::string text;
   for (std::size_t k = 1; k < kNumberOfWhys; ++k) {
     if (trusted.by_why[k] >= kLeastNamed)

@@ -140,7 +140,7 @@ struct MappedSurface {
   /// [triangle] nonzero if unmatched: the mapped positions there are meaningless; empty if all are matched.
   std::vector<std::uint8_t> unmatched;
   std::vector<std::uint8_t> why;     ///< [triangle] Why it is not trusted, 0 where it is
-  std::vector<std::uint8_t> turned;  ///< [vertex] nonzero on a side chain that turned: see turned_atoms()
+  std::vector<std::uint8_t> turned;  ///< [vertex] Turn of what it is on, where it lies off; see turned_atoms()
 };
 
 /// The metrics at one distance outside the surfaces.

@@ -11,6 +11,7 @@
 #include "base/not_a_number.h"
 #include "base/triangle_areas.h"
 #include "certificate/result.h"
+#include "certificate/turned_side_chains.h"
 
 namespace espdiff {
 namespace {
@@ -65,12 +66,14 @@ const char* key_of(Why why) {
     case Why::kSlipped: return "slipped";
     case Why::kOtherResidue: return "other_residue";
     case Why::kDisagrees: return "disagrees";
+    case Why::kTurned: return "turned";
     case Why::kNoPotential: break;
   }
   return "no_potential";
 }
 
-std::vector<std::uint8_t> why_of_mapping(const MappedSurface& s, const std::vector<std::int32_t>& target_of) {
+std::vector<std::uint8_t> why_of_mapping(const MappedSurface& s, const std::vector<std::int32_t>& target_of,
+                                         bool leaves_out_turned) {
   const bool judges_residues = std::any_of(target_of.begin(), target_of.end(), [](std::int32_t r) { return r >= 0; });
   std::vector<std::uint8_t> own;
   if (judges_residues) own = on_own_residue(s, target_of);
@@ -78,6 +81,8 @@ std::vector<std::uint8_t> why_of_mapping(const MappedSurface& s, const std::vect
   const auto has_no_partner = [&](std::uint32_t c) {
     return s.residue[c] < 0 || target_of[static_cast<std::size_t>(s.residue[c])] < 0;
   };
+  const auto least = static_cast<std::uint8_t>(leaves_out_turned ? Turn::kSideChain : Turn::kResidue);
+  const auto turned_away = [&](std::uint32_t c) { return !s.turned.empty() && s.turned[c] >= least; };
   std::vector<std::uint8_t> why;
   why.reserve(s.triangles.size());
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
@@ -93,6 +98,8 @@ std::vector<std::uint8_t> why_of_mapping(const MappedSurface& s, const std::vect
       first = Why::kSlipped;
     } else if (judges_residues && count(v, [&](std::uint32_t c) { return own[c] != 0; }) < 2) {
       first = Why::kOtherResidue;
+    } else if (count(v, turned_away) >= 2) {
+      first = Why::kTurned;
     }
     why.push_back(code(first));
   }

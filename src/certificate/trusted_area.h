@@ -31,9 +31,10 @@ enum class Why : std::uint8_t {
   /// Its residue's mapped difference is not that of the residue's potentials on its own surfaces; see
   /// disagreeing_residues().
   kDisagrees = 6,
-  kNoPotential = 7  ///< a corner lies outside a map, or inside the surface where potentials are read outside it
+  kNoPotential = 7,  ///< a corner lies outside a map, or inside the surface where potentials are read outside it
+  kTurned = 8        ///< two of its corners are on what turned and lie off; see why_of_mapping()
 };
-constexpr std::size_t kNumberOfWhys = 8;
+constexpr std::size_t kNumberOfWhys = 9;
 
 /// The key in OUT.json: "slipped".
 const char* key_of(Why why);
@@ -52,8 +53,9 @@ struct TrustedArea {
   double share() const { return source < target || source != source ? source : target; }
 };
 
-/// Trusted area on side chains that turned about their bonds (turned_side_chains.h). There the mapping finds the
-/// residue, but often another of its faces, so that a potential is compared with that beside it.
+/// Trusted area on side chains that turned about their bonds, farther than kLargeSlip_A from where they carried it
+/// (turned_side_chains.h). There the mapping finds the residue, but another of its faces, so that a potential is
+/// compared with that beside it.
 struct TurnedArea {
   double of_trusted = kNaN;                ///< its share of the trusted area of the source; NaN without any
   double mean_abs_difference = kNaN;       ///< over the rest of the trusted area; NaN without potentials or rest
@@ -61,9 +63,12 @@ struct TurnedArea {
 };
 
 /// [triangle] Why, as far as the mapping shows it: all but kDisagrees and kNoPotential.
-/// @param surface   with slip (may be empty) and residues
+/// @param surface   with slip, turned (either may be empty) and residues
 /// @param target_of [source residue] from paired_residues(); where no residue pairs, residues are not judged
-std::vector<std::uint8_t> why_of_mapping(const MappedSurface& surface, const std::vector<std::int32_t>& target_of);
+/// @param leaves_out_turned whether side chains that turned are not trusted either, besides residues that turned as a
+/// whole
+std::vector<std::uint8_t> why_of_mapping(const MappedSurface& surface, const std::vector<std::int32_t>& target_of,
+                                         bool leaves_out_turned = false);
 
 /// Marks the triangles without a potential on either side.
 void mark_without_potential(MappedSurface& surface);
@@ -81,8 +86,8 @@ TrustedArea sum_trusted(const MappedSurface& surface, const std::vector<float>& 
 /// @param outside [triangle] nonzero where it does not belong to the part; empty for the whole
 TurnedArea turned_area(const MappedSurface& surface, const std::vector<float>& outside, const Molecule& source);
 
-/// The parts that are not trusted, by residues, largest first: "GLY 47 to SER 51 of chain A (230 A^2): slipped". At
-/// most six are named. @param rows the residues to look at
+/// The parts that are not trusted, by residues and secondary structure (assign_folds()), largest first: "loop GLY 47 to
+/// SER 51 of chain A (230 A^2): slipped". At most six are named. @param rows the residues to look at
 std::vector<std::string> untrusted_parts(const MappedSurface& surface, const std::vector<ResidueRow>& rows,
                                          const Molecule& source);
 

@@ -1,4 +1,5 @@
-// turned_side_chains.cpp: fits a rotation to the bonds of each atom of a side chain, and one to its backbone.
+// turned_side_chains.cpp: fits a rotation to the bonds of each atom of a side chain, one to its backbone, and one to
+// the residues around it.
 #include "certificate/turned_side_chains.h"
 
 #include <Eigen/Geometry>
@@ -29,7 +30,7 @@ bool is_light_atom(const Atom& atom) { return atom.element == "H" || atom.elemen
 /// A paired atom of a residue at both ends.
 struct BothEnds {
   std::size_t atom = 0;  ///< of the source
-  std::string name{};
+  std::string name{}, element{};
   bool light = false;
   Eigen::Vector3d start, end;
   Eigen::Vector3d exchanged;  ///< the end of the atom that half a turn puts into its place; its own without one
@@ -42,6 +43,12 @@ Rotation kabsch(const Eigen::Matrix3d& covariance) {
   const double sign = svd.matrixV().determinant() * svd.matrixU().determinant() < 0 ? -1.0 : 1.0;
   return svd.matrixV() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixU().transpose();
 }
+
+/// How the bonds of an atom turned, and where it went.
+struct AtomTurn {
+  Rotation rotation;
+  Eigen::Vector3d end;
+};
 
 double degrees_between(const Rotation& a, const Rotation& b) {
   constexpr double kDegrees = 180 / kPi;
@@ -75,8 +82,8 @@ struct PairedResidue {
     return found;
   }
 
-  /// By how much an atom's bonds rotated against the backbone, degrees; empty where its bonds do not say.
-  std::optional<double> turn_of(const BothEnds& atom, const Rotation& backbone) const {
+  /// How an atom's bonds rotated, the way that is nearer to the backbone's; empty where its bonds do not say.
+  std::optional<AtomTurn> turn_of(const BothEnds& atom, const Rotation& backbone) const {
     const BothEnds* centre = &atom;
     std::vector<const BothEnds*> neighbours = heavy_neighbours(atom);
     if (neighbours.size() == 1) {
@@ -90,7 +97,10 @@ struct PairedResidue {
       as_named += (b->start - centre->start) * (b->end - centre->end).transpose();
       exchanged += (b->start - centre->start) * (b->exchanged - centre->exchanged).transpose();
     }
-    return std::min(degrees_between(kabsch(as_named), backbone), degrees_between(kabsch(exchanged), backbone));
+    const AtomTurn named_turn{kabsch(as_named), atom.end}, exchanged_turn{kabsch(exchanged), atom.exchanged};
+    const bool is_named =
+        degrees_between(named_turn.rotation, backbone) <= degrees_between(exchanged_turn.rotation, backbone);
+    return is_named ? named_turn : exchanged_turn;
   }
 };
 
@@ -109,25 +119,122 @@ bool is_of_backbone(const std::string& name) {
   return name == "N" || name == "CA" || name == "C" || name == "O" || name == "OXT";
 }
 
+/// A rigid fit of places at both ends.
+struct Fit {
+  Rotation rotation;
+  Eigen::Vector3d start, end;  ///< means
+
+  Eigen::Vector3d carried(const Eigen::Vector3d& p) const { return end + rotation * (p - start); }
+};
+
+Fit fit_of(const std::vector<const BothEnds*>& atoms) {
+  Fit fit{Rotation::Identity(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  const auto n = static_cast<double>(atoms.size());
+  for (const BothEnds* a : atoms) {
+    fit.start += a->start / n;
+    fit.end += a->end / n;
+  }
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const BothEnds* a : atoms) covariance += (a->start - fit.start) * (a->end - fit.end).transpose();
+  fit.rotation = kabsch(covariance);
+  return fit;
+}
+
+std::vector<const BothEnds*> heavy_atoms(const PairedResidue& residue) {
+  std::vector<const BothEnds*> heavy;
+  for (const BothEnds& atom : residue.atoms) {
+    if (!atom.light) heavy.push_back(&atom);
+  }
+  return heavy;
+}
+
+/// [residue] the fit of the CA around its own CA, or around the middle of a ligand; empty with fewer than
+/// kLeastNeighbours.
+std::vector<std::optional<Fit>> fits_around(const std::vector<PairedResidue>& residues) {
+  constexpr double kSurroundings_A = 13;
+  constexpr std::size_t kLeastNeighbours = 6;
+  std::vector<std::pair<std::size_t, const BothEnds*>> traces;
+  for (std::size_t r = 0; r < residues.size(); ++r) {
+    if (const BothEnds* ca = residues[r].find("CA"); ca != nullptr) traces.emplace_back(r, ca);
+  }
+  std::vector<std::optional<Fit>> fits(residues.size());
+  for (std::size_t r = 0; r < residues.size(); ++r) {
+    const BothEnds* const ca = residues[r].find("CA");
+    const std::vector<const BothEnds*> heavy = ca != nullptr ? std::vector{ca} : heavy_atoms(residues[r]);
+    if (heavy.empty()) continue;
+    const Fit middle = fit_of(heavy);
+    std::vector<const BothEnds*> around;
+    for (const auto& [other, b] : traces) {
+      if (other != r && (b->start - middle.start).squaredNorm() <= kSurroundings_A * kSurroundings_A &&
+          (b->end - middle.end).squaredNorm() <= kSurroundings_A * kSurroundings_A)
+        around.push_back(b);
+    }
+    if (around.size() >= kLeastNeighbours) fits[r] = fit_of(around);
+  }
+  return fits;
+}
+
+/// Whether the atoms, carried by their surroundings, lie where atoms of the same elements are, whatever their names: a
+/// ligand that half a turn maps onto itself.
+bool lies_alike(const std::vector<const BothEnds*>& atoms, const Fit& around) {
+  constexpr double kSamePlace_A = 1;
+  return std::all_of(atoms.begin(), atoms.end(), [&](const BothEnds* a) {
+    const Eigen::Vector3d place = around.carried(a->start);
+    return std::any_of(atoms.begin(), atoms.end(), [&](const BothEnds* b) {
+      return b->element == a->element && (b->end - place).norm() < kSamePlace_A;
+    });
+  });
+}
+
+/// p -> end + rotation * (p - start)
+RigidTransform carried_by(const AtomTurn& turn, const Eigen::Vector3d& start) {
+  RigidTransform carried;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) carried.rotation[3 * row + column] = turn.rotation(row, column);
+  }
+  const Eigen::Vector3d shift = turn.end - turn.rotation * start;
+  carried.translation = {shift.x(), shift.y(), shift.z()};
+  return carried;
+}
+
+/// Marks the atoms of a ligand that turned as a whole.
+void mark_ligand(const PairedResidue& ligand, const Fit& around, std::vector<TurnedAtom>& turned) {
+  constexpr std::size_t kLeastHeavyAtoms = 4;
+  const std::vector<const BothEnds*> heavy = heavy_atoms(ligand);
+  if (heavy.size() < kLeastHeavyAtoms) return;
+  const Fit own = fit_of(heavy);
+  if (degrees_between(own.rotation, around.rotation) <= kLeastTurnDegrees || lies_alike(heavy, around)) return;
+  for (const BothEnds& atom : ligand.atoms)
+    turned[atom.atom] = {Turn::kResidue, carried_by({own.rotation, atom.end}, atom.start)};
+}
+
 }  // namespace
 
-std::vector<std::uint8_t> turned_atoms(const Molecule& source, const Molecule& target, const AtomPairing& pairing) {
+std::vector<TurnedAtom> turned_atoms(const Molecule& source, const Molecule& target, const AtomPairing& pairing) {
   std::vector<PairedResidue> residues(source.residues.size());
   for (const auto& [s, t] : pairing.pairs) {
     const Atom& atom = source.atoms[s];
     const Vec3d &p = source.positions[s], &q = target.positions[t];
     residues[static_cast<std::size_t>(atom.residue)].atoms.push_back(
-        {s, atom.name, is_light_atom(atom), {p.x, p.y, p.z}, {q.x, q.y, q.z}, {}});
+        {s, atom.name, atom.element, is_light_atom(atom), {p.x, p.y, p.z}, {q.x, q.y, q.z}, {}});
   }
-  std::vector<std::uint8_t> turned(source.size(), 0);
+  const std::vector<std::optional<Fit>> around = fits_around(residues);
+  std::vector<TurnedAtom> turned(source.size());
   for (std::size_t r = 0; r < residues.size(); ++r) {
     const std::optional<Rotation> backbone = residues[r].of_backbone();
-    if (!backbone) continue;
+    if (!backbone) {
+      if (around[r]) mark_ligand(residues[r], *around[r], turned);
+      continue;
+    }
     note_exchanges(residue_letter(source.residues[r].name), residues[r]);
+    const bool is_whole = around[r] && degrees_between(*backbone, around[r]->rotation) > kLeastTurnDegrees;
     for (const BothEnds& atom : residues[r].atoms) {
-      if (is_of_backbone(atom.name)) continue;
-      const std::optional<double> turn = residues[r].turn_of(atom, *backbone);
-      turned[atom.atom] = turn && *turn > kLeastTurnDegrees ? 1 : 0;
+      const std::optional<AtomTurn> of_bonds =
+          is_of_backbone(atom.name) ? std::nullopt : residues[r].turn_of(atom, *backbone);
+      const bool is_side_chain = of_bonds && degrees_between(of_bonds->rotation, *backbone) > kLeastTurnDegrees;
+      if (!is_whole && !is_side_chain) continue;
+      turned[atom.atom] = {is_whole ? Turn::kResidue : Turn::kSideChain,
+                           carried_by(of_bonds.value_or(AtomTurn{*backbone, atom.end}), atom.start)};
     }
   }
   return turned;

@@ -1,4 +1,5 @@
-// turned_side_chains.h: the atoms of side chains that turned about their bonds between two states.
+// turned_side_chains.h: the atoms of side chains that turned about their bonds between two states, and of residues that
+// turned as a whole.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +10,29 @@
 
 namespace espdiff {
 
-/// A side chain that turned by more carries another of its faces to the outside. Rotamers lie 120 degrees apart.
+/// What turned by more carries another of its faces to the outside. Rotamers lie 120 degrees apart.
 constexpr double kLeastTurnDegrees = 50;
 
-/// [source atom] 1 for atoms of side chains whose bonds rotated by more than kLeastTurnDegrees relative to N, CA and C
-/// of their residue. The bonds of an atom are those to its paired heavy neighbours in the residue, fitted at both ends
-/// (Kabsch); a hydrogen, or the end of a chain, has the bonds of its only neighbour. Half a turn that exchanges equal
-/// atoms (Asp, Glu, Phe, Tyr, Arg) does not count. 0 for the backbone, for unpaired atoms, and for residues without N,
-/// CA and C in both states: how they turned is not known. Frames of the molecules do not matter.
-std::vector<std::uint8_t> turned_atoms(const Molecule& source, const Molecule& target, const AtomPairing& pairing);
+/// What turned. The numbers stand in OUT.vtp (`turned`), at vertices farther than kLargeSlip_A from where it carried
+/// them.
+enum class Turn : std::uint8_t {
+  kNone = 0,
+  kSideChain = 1,  ///< the side chain, about its bonds, against N, CA and C of its residue
+  kResidue = 2     ///< these three, or a ligand, against the residues within 13 A: modelled otherwise
+};
+
+struct TurnedAtom {
+  Turn turn = Turn::kNone;
+  RigidTransform carried{};  ///< where the atom carried what is bound to it: the source's own frame to the target's
+};
+
+/// [source atom] what turned by more than kLeastTurnDegrees. The bonds of an atom are those to its paired heavy
+/// neighbours in the residue, fitted at both ends (Kabsch); a hydrogen, or the end of a chain, has the bonds of its
+/// only neighbour. Half a turn that exchanges equal atoms (Asp, Glu, Phe, Tyr, Arg) does not count. Surroundings are
+/// the CA within 13 A of a residue's CA, or of the middle of a ligand's heavy atoms (at least four), in both states; at
+/// least six. A ligand that lies within 1 A of the same elements under other names did not turn. kNone for unpaired
+/// atoms, and where N, CA or C of a residue is missing. Frames of the molecules do not matter. Time: quadratic in the
+/// residues, below 0.05 s for 2000.
+std::vector<TurnedAtom> turned_atoms(const Molecule& source, const Molecule& target, const AtomPairing& pairing);
 
 }  // namespace espdiff

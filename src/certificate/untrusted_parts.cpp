@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 
 #include "align/chain_links.h"
 #include "base/molecule/residue_label.h"
+#include "base/molecule/secondary_structure.h"
 #include "base/text/short_numbers.h"
 #include "certificate/result.h"
 #include "certificate/trusted_area.h"
@@ -31,6 +33,7 @@ const char* in_words(std::size_t why) {
     case Why::kOtherResidue: return "on another residue";
     case Why::kDisagrees: return "its difference is not that of its own surfaces";
     case Why::kNoPotential: return "without a potential";
+    case Why::kTurned: return "turned off its atoms";
     case Why::kTrusted: break;
   }
   return "trusted";
@@ -72,15 +75,46 @@ std::vector<UntrustedPart> runs_of(const std::vector<AreaByWhy>& areas, const st
   return parts;
 }
 
-std::string named(const UntrustedPart& part, const Molecule& source) {
-  std::string name = residue_label(source.residues[part.last]);
-  if (part.first != part.last) {
-    Residue first = source.residues[part.first];
-    first.chain.clear();
-    name = residue_label(first) + " to " + name;
+/// Helices, strands and loops of the source.
+class SecondaryStructure {
+ public:
+  explicit SecondaryStructure(const Molecule& molecule)
+      : backbone_(backbone_of(molecule)), folds_(assign_folds(molecule, backbone_)) {}
+
+  /// "loop", "helix", "strand", or the two that most residues from first to last have: "loop and helix"; empty where
+  /// most lack their backbone, so that no fold is known.
+  std::string of(std::size_t first, std::size_t last) const {
+    std::array<std::pair<std::size_t, const char*>, 3> counts = {{{0, "loop"}, {0, "helix"}, {0, "strand"}}};
+    std::size_t known = 0;
+    for (std::size_t r = first; r <= last; ++r) {
+      if (!backbone_[r].complete()) continue;
+      ++known;
+      ++counts[static_cast<std::size_t>(folds_[r])].first;
+    }
+    if (2 * known <= last - first + 1) return "";
+    std::stable_sort(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    const bool is_of_two = 4 * counts[1].first >= known;
+    return counts[0].second + (is_of_two ? std::string(" and ") + counts[1].second : "");
   }
+
+ private:
+  std::vector<Backbone> backbone_;
+  std::vector<Fold> folds_;
+};
+
+/// "loop GLY 47 to SER 51 of chain A"; "ALA 12 of chain A, in a helix".
+std::string residues_in_words(const UntrustedPart& part, const Molecule& source, const SecondaryStructure& structure) {
+  const std::string name = residue_label(source.residues[part.last]), fold = structure.of(part.first, part.last);
+  if (part.first == part.last) return name + (fold.empty() ? "" : ", in a " + fold);
+  Residue first = source.residues[part.first];
+  first.chain.clear();
+  return (fold.empty() ? "" : fold + " ") + residue_label(first) + " to " + name;
+}
+
+std::string named(const UntrustedPart& part, const Molecule& source, const SecondaryStructure& structure) {
   const auto most = std::max_element(part.area.begin() + 1, part.area.end()) - part.area.begin();
-  return name + " (" + short_number(untrusted(part.area)) + " A^2): " + in_words(static_cast<std::size_t>(most));
+  return residues_in_words(part, source, structure) + " (" + short_number(untrusted(part.area)) +
+         " A^2): " + in_words(static_cast<std::size_t>(most));
 }
 
 }  // namespace
@@ -95,7 +129,10 @@ std::vector<std::string> untrusted_parts(const MappedSurface& surface, const std
     return untrusted(a.area) > untrusted(b.area);
   });
   std::vector<std::string> names;
-  for (std::size_t k = 0; k < std::min(parts.size(), kMostNamedParts); ++k) names.push_back(named(parts[k], source));
+  if (parts.empty()) return names;
+  const SecondaryStructure structure(source);
+  for (std::size_t k = 0; k < std::min(parts.size(), kMostNamedParts); ++k)
+    names.push_back(named(parts[k], source, structure));
   if (parts.size() > kMostNamedParts)
     names.push_back("and " + std::to_string(parts.size() - kMostNamedParts) + " smaller parts");
   return names;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "align/geometry/superpose.h"
@@ -40,17 +41,25 @@ void download_surface(Engine& engine, const MappedStep& step, MappedSurface& sur
   surface.path_length = mapping.path_length;
 }
 
-/// Marks the vertices of side chains that turned. Nothing is asked of the device where none did.
+/// Marks the vertices of what turned that lie off the place where it carried them. Nothing is asked of the device where
+/// nothing turned.
 void mark_turned(Engine& engine, const Molecule& source, const Molecule& target, const Surface& source_surface,
                  MappedStep& step) {
-  std::vector<std::uint8_t>& turned = step.result.surface.turned;
-  turned.assign(step.result.surface.positions.size(), 0);
-  const std::vector<std::uint8_t> atoms = turned_atoms(source, target, step.result.pairing);
-  if (std::count(atoms.begin(), atoms.end(), 1) == 0) return;
-  const std::vector<std::int32_t> labels =
-      vertex_labels(engine, source_surface, step.mapping.source, source, step.frame.from_source,
-                    std::vector<std::int32_t>(atoms.begin(), atoms.end()));
-  for (std::size_t v = 0; v < labels.size(); ++v) turned[v] = labels[v] == 1 ? 1 : 0;
+  MappedSurface& s = step.result.surface;
+  s.turned.assign(s.positions.size(), 0);
+  const std::vector<TurnedAtom> atoms = turned_atoms(source, target, step.result.pairing);
+  const auto has_turned = [](const TurnedAtom& atom) { return atom.turn != Turn::kNone; };
+  if (std::none_of(atoms.begin(), atoms.end(), has_turned)) return;
+  std::vector<std::int32_t> numbers(atoms.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  const std::vector<std::int32_t> owner =
+      vertex_labels(engine, source_surface, step.mapping.source, source, step.frame.from_source, numbers);
+  for (std::size_t v = 0; v < owner.size(); ++v) {
+    if (owner[v] < 0) continue;
+    const TurnedAtom& atom = atoms[static_cast<std::size_t>(owner[v])];
+    if (has_turned(atom) && norm(atom.carried.apply(s.source_positions[v]) - s.positions[v]) > kLargeSlip_A)
+      s.turned[v] = static_cast<std::uint8_t>(atom.turn);
+  }
 }
 
 std::vector<Vec3f> rotated(std::vector<Vec3f> normals, const RigidTransform& to_frame) {
@@ -67,7 +76,7 @@ void set_unmatched_to_nan(const std::vector<bool>& is_matched, std::vector<float
 }
 
 void describe(Engine& engine, const Molecule& source, const Molecule& target, const Surface& source_surface,
-              const Surface& target_surface, MappedStep& step) {
+              const Surface& target_surface, bool leaves_out_turned, MappedStep& step) {
   const Mapping& mapping = step.mapping;
   MappedSurface& s = step.result.surface;
   step.moved = step.frame.domains.carry(engine, mapping.source, source_surface.atoms);
@@ -84,8 +93,8 @@ void describe(Engine& engine, const Molecule& source, const Molecule& target, co
   s.target_residue = engine.vertex_residues(mapping.mapped, target_surface.atoms);
   const std::vector<std::int32_t> target_of = paired_residues(source, target, step.result.pairing);
   step.result.certificate.same_residue_area_fraction = same_residue_share(s, s.residue, s.target_residue, target_of);
-  s.why = why_of_mapping(s, target_of);
   mark_turned(engine, source, target, source_surface, step);
+  s.why = why_of_mapping(s, target_of, leaves_out_turned);
   step.result.residues = residue_rows(s, source.residues.size(), false);
 }
 

@@ -239,6 +239,9 @@ TemplateMapping::TemplateMapping(Engine& engine, const CompareInput& source, con
     : parts_(new Parts{engine, source, options, {}}) {
   check_options(options);
   refuse_patches_of(options, "an ensemble");
+  if (options.leave_out_turned)
+    throw InputError("what turned is not looked at where one template is mapped onto all states; leave " +
+                     option("leave-out-turned") + " away");
   parts_->fields = make_fields(options.fields);
   parts_->prepare(progress);
 }

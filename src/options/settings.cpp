@@ -279,6 +279,10 @@ std::vector<Setting> make_settings() {
       "require", "Verdict", kPositive, [](auto& o) -> auto& { return o.required_share; },
       "Share of the source's surface, and of the target's, that has to be trusted, 0 to 1; with less a result is NOT "
       "TRUSTWORTHY. Use 0.95 for an answer of yes or no"));
+  all.push_back(Rows::boolean(
+      "leave-out-turned", "Verdict", [](auto& o) -> auto& { return o.leave_out_turned; },
+      "Do not trust side chains that turned about their bonds where the mapping puts a point farther than 3 A from "
+      "where its atoms went: there the residue is right, but not its face. Of NMR models half of the surface is left"));
   add_surface_settings(all);
   add_mapping_settings(all);
   const std::size_t first = all.size();

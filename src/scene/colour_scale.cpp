@@ -18,7 +18,7 @@ struct ArrayDescription {
 };
 
 /// In the order of RenderArray.
-constexpr std::array<ArrayDescription, 9> kArrays = {{
+constexpr std::array<ArrayDescription, 10> kArrays = {{
     {"difference", "potential_difference", "potential difference, target \xE2\x88\x92 source"},
     {"source", "potential_source", "potential of the source"},
     {"target", "potential_target", "potential of the target"},
@@ -28,6 +28,7 @@ constexpr std::array<ArrayDescription, 9> kArrays = {{
     {"residue", "residue_index", "residues"},
     {"plain", "", "shape"},
     {"slip", "slip", "slip, distance from where the atoms went"},
+    {"why", "why", "where it is trusted, and why not elsewhere"},
 }};
 
 const ArrayDescription& describe(RenderArray array) { return kArrays[static_cast<std::size_t>(array)]; }
@@ -54,7 +55,7 @@ RenderArray parse_render_array(const std::string& text) {
     if (text == kArrays[i].option) return static_cast<RenderArray>(i);
   }
   throw InputError("cannot colour by '" + text +
-                   "'; use difference, source, target, sign, displacement, magnitude, residue, plain or slip");
+                   "'; use difference, source, target, sign, displacement, magnitude, residue, plain, slip or why");
 }
 
 const char* to_string(RenderArray array) { return describe(array).option; }
@@ -73,7 +74,8 @@ std::string legend_title(RenderArray array, const std::string& unit, const std::
   const std::string potential = "potential";
   const std::size_t at = title.find(potential);
   if (at != std::string::npos) title.replace(at, potential.size(), quantity);
-  const bool has_unit = array != RenderArray::kSign && array != RenderArray::kResidue && array != RenderArray::kPlain;
+  const bool has_unit = array != RenderArray::kSign && array != RenderArray::kResidue && array != RenderArray::kPlain &&
+                        array != RenderArray::kWhy;
   if (!has_unit) return title;
   const std::string shown = is_length(array) ? "\xC3\x85" : unit;
   return shown.empty() ? title : title + " (" + shown + ")";
@@ -119,7 +121,7 @@ void ColourScale::set_ends(const std::vector<float>& values, const ScaleRange& r
 double ColourScale::hue() const { return is_length(array_) ? kGreenHue : kOrangeHue; }
 
 Rgb ColourScale::colour(float value) const {
-  if (array_ == RenderArray::kPlain) return kPlainColour;
+  if (array_ == RenderArray::kPlain || array_ == RenderArray::kWhy) return kPlainColour;
   if (!std::isfinite(value)) return kNoValueColour;
   if (array_ == RenderArray::kResidue) return residue_colour(static_cast<int>(value));
   if (two_classes()) return value != 0 ? kSignChangeColour : kSameSignColour;

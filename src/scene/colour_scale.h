@@ -11,7 +11,18 @@
 namespace espdiff {
 
 /// The quantity that colours a mapped surface. The numbers are those of shaders/surface.frag.
-enum class RenderArray { kDifference, kSource, kTarget, kSign, kDisplacement, kMagnitude, kResidue, kPlain, kSlip };
+enum class RenderArray {
+  kDifference,
+  kSource,
+  kTarget,
+  kSign,
+  kDisplacement,
+  kMagnitude,
+  kResidue,
+  kPlain,
+  kSlip,
+  kWhy
+};
 
 /// Whether an array compares a place of the source with its place on the target; grey where that is not trusted.
 inline bool compares_places(RenderArray array) {
@@ -19,10 +30,15 @@ inline bool compares_places(RenderArray array) {
          array == RenderArray::kMagnitude;
 }
 
+/// Whether an array says how certain the mapping is, so that nothing fades by that.
+inline bool shows_certainty(RenderArray array) {
+  return array == RenderArray::kDisplacement || array == RenderArray::kSlip || array == RenderArray::kWhy;
+}
+
 /// Whether an array is of lengths, in Angstrom; the others are potentials or have no unit.
 inline bool is_length(RenderArray array) { return array == RenderArray::kDisplacement || array == RenderArray::kSlip; }
 
-/// @param text difference, source, target, sign, displacement, magnitude, residue, plain or slip (or uncertainty)
+/// @param text difference, source, target, sign, displacement, magnitude, residue, plain, slip (or uncertainty) or why
 /// @throws InputError listing them
 RenderArray parse_render_array(const std::string& text);
 /// The name that parse_render_array() reads.
@@ -64,8 +80,10 @@ class ColourScale {
   double low() const { return low_; }
   double high() const { return high_; }
   bool two_classes() const { return array_ == RenderArray::kSign; }
-  /// Whether a legend shows a bar; residues and plain surfaces have none.
-  bool has_bar() const { return array_ != RenderArray::kResidue && array_ != RenderArray::kPlain; }
+  /// Whether a legend shows a bar; residues, plain surfaces and reasons have none.
+  bool has_bar() const {
+    return array_ != RenderArray::kResidue && array_ != RenderArray::kPlain && array_ != RenderArray::kWhy;
+  }
   /// Whether values lie beyond the scale's ends, where they are drawn in the ends' colours.
   bool exceeds_low() const { return exceeds_low_; }
   bool exceeds_high() const { return exceeds_high_; }

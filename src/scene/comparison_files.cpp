@@ -139,7 +139,7 @@ std::vector<std::string> files_of(const ComparisonFiles& files) {
 bool shows_potentials(const Scene& scene) {
   return scene.layout != Layout::kTurned ||
          (scene.array != RenderArray::kDisplacement && scene.array != RenderArray::kResidue &&
-          scene.array != RenderArray::kPlain && scene.array != RenderArray::kSlip);
+          scene.array != RenderArray::kPlain && scene.array != RenderArray::kSlip && scene.array != RenderArray::kWhy);
 }
 
 ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene) {

@@ -113,7 +113,11 @@ void read_arrays(SurfaceFile& file, const VtpContent& surface) {
   file.residue_number = numbers_of(surface, "residue_number");
   file.untrusted = flags_of(surface, "corrupt");
   file.unmatched = flags_of(surface, "no_counterpart");
-  file.why = flags_of(surface, "why");  // files of older versions lack it
+  if (const VtpNumbers* const why = find_array(surface.cell_arrays, "why"); why != nullptr && why->n_components == 1) {
+    for (const double code : why->values)
+      file.why.push_back(static_cast<std::uint8_t>(code >= 0 && code < 9 ? code : 0));
+  }  // files of older versions lack it
+  for (const float turn : numbers_of(surface, "turned")) file.turned.push_back(turn > 0 ? 1 : 0);
   for (std::size_t t = 0; t < file.why.size(); ++t) file.untrusted[t] = file.why[t] != 0 && file.is_matched(t) ? 1 : 0;
   file.potential_unit = text_of(surface, "potential_unit");
   file.source_group = text_of(surface, "source_group");
@@ -182,11 +186,15 @@ const std::vector<float>& SurfaceFile::values(RenderArray array) const {
       case RenderArray::kDisplacement: return displacement;
       case RenderArray::kSlip: return slip;
       case RenderArray::kResidue: return residue_index;
-      case RenderArray::kPlain: break;
+      case RenderArray::kPlain:
+      case RenderArray::kWhy: break;
     }
     return nothing;
   };
-  if (pick().empty() && array != RenderArray::kPlain) {
+  if (array == RenderArray::kWhy && why.empty()) {
+    throw InputError(path + ": has no cell array 'why', so that it cannot be drawn by reason; compare the pair again");
+  }
+  if (pick().empty() && array != RenderArray::kPlain && array != RenderArray::kWhy) {
     const std::string lacks = path + ": no point array '" + array_name(array) + "' (there are: " + array_names + "); ";
     if (potential_difference.empty() && !fields.empty())
       throw InputError(lacks + "draw one of its fields, " + option("field", fields.front()) +

@@ -15,7 +15,7 @@ namespace espdiff {
 class GaussianAtoms;
 
 /// Of the array `why`: 0 for trusted, and the reasons.
-constexpr int kNumberOfReasons = 8;
+constexpr int kNumberOfReasons = 9;
 
 /// OUT.vtp with the arrays that a comparison writes.
 struct MappedFile {
@@ -30,7 +30,7 @@ struct MappedFile {
   std::vector<double> target_residue;                      ///< [vertex] index where it is mapped to, -1 for none
   std::vector<bool> is_matched, is_valid;                  ///< [triangle] matched; and not corrupt
   std::vector<double> why;                                 ///< [triangle] 0 where it is trusted
-  std::vector<double> turned;                              ///< [vertex] on a side chain that turned
+  std::vector<double> turned;                              ///< [vertex] 1 on a side chain that turned, 2 on a residue
   std::vector<bool> is_trusted;                            ///< [triangle]
   std::vector<std::pair<std::string, std::string>> texts;  ///< of the whole file: name, text
   std::vector<std::string> array_names;                    ///< all, also of arrays that are not known here

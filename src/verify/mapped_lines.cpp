@@ -53,8 +53,8 @@ void add_areas(const MappedFile& file, Lines& lines) {
   }
 }
 
-constexpr const char* kReasons[kNumberOfReasons] = {"trusted", "unmatched",     "corrupt",   "unpaired",
-                                                    "slipped", "other_residue", "disagrees", "no_potential"};
+constexpr const char* kReasons[kNumberOfReasons] = {"trusted",       "unmatched", "corrupt",      "unpaired", "slipped",
+                                                    "other_residue", "disagrees", "no_potential", "turned"};
 
 /// The shares of both surfaces that are trusted, and those of the source that are not.
 void add_trusted_shares(const MappedFile& file, const ResultRecord& record, Lines& lines) {

@@ -29,7 +29,8 @@ std::set<std::pair<double, double>> neighbours_on_target(const MappedFile& file)
   return neighbours;
 }
 
-/// [triangle] unmatched, corrupt, unpaired, slipped, on another residue, without a potential, or 0.
+/// [triangle] unmatched, corrupt, unpaired, slipped, on another residue, turned, without a potential, or 0. Side chains
+/// that turned are trusted or not, as the run was asked for.
 std::vector<int> reasons_by_mapping(const MappedFile& file, const Partners& partner_of) {
   const auto neighbours = neighbours_on_target(file);
   const auto is_own = [&](std::uint32_t v) {
@@ -56,6 +57,8 @@ std::vector<int> reasons_by_mapping(const MappedFile& file, const Partners& part
       why = 4;
     } else if (!partner_of.empty() && !at_least_two(t, is_own)) {
       why = 5;
+    } else if (at_least_two(t, [&](std::uint32_t v) { return file.turned[v] >= (file.why[k] == 8 ? 1 : 2); })) {
+      why = 8;
     }
     reasons.push_back(why);
   }

@@ -109,7 +109,7 @@ void ComparisonScene::make_offsets() {
 
 void ComparisonScene::lay_out() {
   // What is already shown as colour need not fade; fading would hide the places of interest.
-  const bool shows_uncertainty = is_length(scene_.array);
+  const bool shows_uncertainty = shows_certainty(scene_.array);
   const bool fades = scene_.fade && !shows_uncertainty && !files_.surface.uncertainty().empty();
   std::vector<Panel> panels = panels_of(scene_, fades);
   const LegendShares shares = legend_shares(scene_);

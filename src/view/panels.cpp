@@ -22,6 +22,7 @@ std::string compared_name(RenderArray array) {
     case RenderArray::kResidue: return "residues";
     case RenderArray::kPlain: return "shape";
     case RenderArray::kSlip: return "slip";
+    case RenderArray::kWhy: return "trusted, or why not";
     default: return "target \xE2\x88\x92 source";
   }
 }

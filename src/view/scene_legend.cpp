@@ -4,8 +4,10 @@
 #include <vtkCamera.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
+#include "scene/reasons.h"
 #include "view/comparison_scene.h"
 #include "view/drawings/camera_view.h"
 #include "view/drawings/cause_drawings.h"
@@ -95,8 +97,46 @@ void add_scales(Legend& legend, const ComparisonScene& scene, const Paper& paper
             : with_groups(legend_title(compared.array(), scene.unit(), scene.surface_file().quantity), scene));
 }
 
+/// One key a reason, with its share of the source's surface, in rows below a title.
+void add_reasons(Legend& legend, const ComparisonScene& scene, const Paper& paper) {
+  const double left = 0.25 * paper.width, right = 0.98 * paper.width, gap = 1.2 * paper.text_height;
+  double x = left, y = paper.bar_top;
+  legend.text((left + right) / 2, y + 1.7 * paper.text_height, legend_title(RenderArray::kWhy, ""), Align::kCentre);
+  const auto words = [](const char* meaning, double share) {
+    return std::string(meaning) + " " + readable_number(std::round(1000 * share) / 10) + " %";
+  };
+  const auto place = [&](const std::string& meaning) {
+    if (x > left && x + legend.key_width(meaning) > right) {
+      x = left;
+      y -= 1.6 * paper.text_height;
+    }
+    const double here = x;
+    x += legend.key_width(meaning) + gap;
+    return here;
+  };
+  const SurfaceFile& surface = scene.surface_file();
+  const auto areas = areas_of_reasons({surface.triangles, surface.why, surface.turned},
+                                      surface.source_positions.empty() ? surface.positions : surface.source_positions);
+  double matched = 0;
+  for (std::size_t r = 0; r < areas.size(); ++r) {
+    matched += areas[r];
+    if (!(areas[r] > 0)) continue;
+    const std::string meaning = words(kDrawnReasons[r].words, areas[r]);
+    const double here = place(meaning);
+    legend.key(here, y, kDrawnReasons[r].colour, 1, meaning);
+  }
+  if (!scene.geometry().has(SurfacePart::kUnmatched)) return;
+  const std::string meaning = words("no counterpart", 1 - matched);
+  const double here = place(meaning);
+  legend.hatched_key(here, y, meaning);
+}
+
 void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) {
   if (!scene.scene().surface) return;
+  if (scene.panels().back().sheets.front().array == RenderArray::kWhy) {
+    add_reasons(legend, scene, paper);
+    return;
+  }
   const double left = second_scale(scene) != nullptr ? 0.82 : 0.79;
   const auto& sheets = scene.panels().back().sheets;
   const bool fades = std::any_of(sheets.begin(), sheets.end(), [](const Sheet& s) { return s.fades; });

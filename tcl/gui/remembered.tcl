@@ -8,7 +8,7 @@ namespace eval ::espdiff::gui {
         matrix,output text ensemble,output text ensemble,sel text trajectory,csv text draw,low text draw,high text draw,limit text
         draw,legend switch matrix,ordered switch trajectory,skip switch
         residues,falling switch residues,face switch residues,least text draw,range {auto given} draw,surface {target source}
-        draw,color {difference sign source target slip displacement path_length none}
+        draw,color {difference sign source target slip displacement path_length why none}
         draw,uncertain {fade transparent plain} draw,off_target {uncertain mark hide} draw,colors {red-blue cool-warm purple-orange} draw,view {single linked}
         matrix,potential {none automatic Poisson-Boltzmann "PME, explicit water" "Coulomb, vacuum" "data set 0 of each"}
         ensemble,potential {automatic Poisson-Boltzmann "PME, explicit water" "Coulomb, vacuum"}

@@ -20,6 +20,10 @@ namespace eval ::espdiff {
         red-blue   {{0.78 0.08 0.10} {0.96 0.96 0.96} {0.10 0.22 0.78}}
         sequential {{0.96 0.96 0.96} {0.98 0.62 0.20} {0.45 0.05 0.05}}
     }
+    # Colours by number of what is drawn by reason (`core::reasons`): trusted, slipped, on another residue, turned,
+    # disagrees, off the target, without a partner, no potential, trusted with a turned side chain. Red, yellow and blue as
+    # in the command line's pictures.
+    variable reason_colors {8 1 4 0 11 16 7 2 15}
     variable lengths {slip displacement path_length}  ;# quantities that start at 0
     variable scale_method RWB  ;# VMD's colour scale whose colours are replaced temporarily
 
@@ -99,13 +103,18 @@ namespace eval ::espdiff {
         set is_surface [expr {[dict get [core::status $handle] kind] eq "surface"}]
         set color [drawn_quantity $handle [dict get $options color] $is_surface [dict get $options field]]
         set range [dict create low -1 high 1 unit ""]
-        if {$color ne "none"} { set range [drawn_range $handle $color [shared_range $options $handle $color]] }
+        if {$color eq "why"} {
+            dict set range reasons [core::reasons $handle]
+        } elseif {$color ne "none"} {
+            set range [drawn_range $handle $color [shared_range $options $handle $color]]
+        }
         set side [expr {[dict get $options surface] eq "mapped" ? "target" : "source"}]
-        set core [dict create color $color low [dict get $range low] high [dict get $range high] \
+        set core [dict create color [expr {$color eq "why" ? "none" : $color}] low [dict get $range low] high [dict get $range high] \
             corrupt [dict get $options corrupt] plain $plain_color marked $marked_color \
             surface [dict get $options surface] patch [dict get $options patch]]
-        set is_plain [expr {$is_surface || [dict get $options uncertain] eq "plain"}]
+        set is_plain [expr {$is_surface || $color eq "why" || [dict get $options uncertain] eq "plain"}]
         if {!$is_plain} { dict set core limit [dict get $options uncertainty-limit] }
+        if {$color eq "why"} { dict set core corrupt normal }
         if {[dict get [core::status $handle] kind] eq "ensemble"} {
             dict set range title [ensemble_title $handle $color]
         } elseif {[string match *:* $color]} {
@@ -114,7 +123,8 @@ namespace eval ::espdiff {
         return [dict merge $range [dict create handle $handle color $color core $core \
             colors [scale_colors [expr {[starts_at_low_end $handle $color] ? "sequential" : [dict get $options colors]}]] \
             legend [expr {[dict get $options legend] && $color ne "none"}] beside [molecule_of $handle $side] \
-            parts [drawn_parts $options $is_surface] key [legend_key $handle $options $is_surface]]]
+            parts [expr {$color eq "why" ? [list [list "" 0 1.0 [reason_bands [dict get $range reasons]]]]
+                : [drawn_parts $options $is_surface]}] key [legend_key $handle $options $is_surface]]]
     }
 
     # Red, green and blue from 0 to 1 of the lower end, the middle and the upper end.
@@ -134,7 +144,7 @@ namespace eval ::espdiff {
         if {$is_surface} { return "" }
         set words {}
         if {[dict get [core::status $handle] kind] eq "ensemble"} { return [ensemble_key $handle $options] }
-        if {[dict get $options uncertain] ne "plain"} {
+        if {[dict get $options uncertain] ne "plain" && [dict get $options color] ne "why"} {
             set how [dict get {fade grey transparent transparent} [dict get $options uncertain]]
             lappend words "$how: uncertain, slipped by [format %.3g [dict get $options uncertainty-limit]] A or more"
         }
@@ -149,7 +159,7 @@ namespace eval ::espdiff {
     proc drawn_quantity {handle color is_surface {field ""}} {
         if {$field ne ""} {
             if {$color eq "auto"} { set color difference }
-            if {$color eq "none"} { return none }
+            if {$color in {none why}} { return $color }
             set color $field:$color
         }
         if {$color eq "auto"} {
@@ -157,7 +167,7 @@ namespace eval ::espdiff {
             if {![catch { core::range $handle $color }]} { return $color }
             return [expr {$is_surface ? "none" : [catch { core::range $handle slip }] ? "displacement" : "slip"}]
         }
-        if {$color ne "none"} { core::range $handle $color }  ;# the core reports quantities that the handle lacks
+        if {$color ni {none why}} { core::range $handle $color }  ;# the core reports quantities that the handle lacks
         return $color
     }
 
@@ -180,7 +190,7 @@ namespace eval ::espdiff {
     # Whether a scale has no middle: lengths, and fields whose sign means nothing.
     proc starts_at_low_end {handle color} {
         variable lengths
-        expr {$color in $lengths || ($color ne "none" && ![dict get [core::range $handle $color] signed])}
+        expr {$color in $lengths || ($color ni {none why} && ![dict get [core::range $handle $color] signed])}
     }
 
     # "Hydrophobicity (Kyte and Doolittle): difference, target - source", for the legend.
@@ -220,6 +230,18 @@ namespace eval ::espdiff {
         set least [lindex $opacities end]
         return [concat [list [list "" 0 1.0 [list {to 0.5} [dict merge $grey {from 1e8}]]]] $between \
             [list [list "opacity $least" 0 $least [list {from 1}]]]]
+    }
+
+    # What `core::triangles` draws for each reason, and the stripes of what has no counterpart.
+    proc reason_bands {reasons} {
+        variable reason_colors
+        variable plain_color
+        variable stripe_color
+        set bands {}
+        foreach {reason words area} $reasons {
+            lappend bands [list reason $reason plain [lindex $reason_colors $reason]]
+        }
+        return [lappend bands [list plain $plain_color light $stripe_color hatches 1 from 1e8]]
     }
 
     # One graphics molecule for each part that has triangles; their ids are appended to the caller's list as they are

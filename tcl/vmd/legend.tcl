@@ -9,7 +9,7 @@ namespace eval ::espdiff {
         difference "Potential difference, target - source" source "Potential of the source"
         target "Potential of the target" potential "Potential" displacement "Displacement"
         slip "Slip, distance from where the atoms went"
-        path_length "Path length"
+        path_length "Path length" why "Where it is trusted, and why not elsewhere"
         sign "Sign of the potential, target against source"
     }
 
@@ -25,10 +25,15 @@ namespace eval ::espdiff {
         dict with layout {
             set room [expr {$room * [lindex [legend_screen] 2]}]
             set half_width [expr {min($half_width, 0.82 * $room)}]
-            set positions [tick_positions $plan $half_width]
-            draw_bar $mol $half_width $bottom $top [value_or $plan first 33]
+            set positions [expr {[dict exists $plan reasons] ? "" : [tick_positions $plan $half_width]}]
+            if {[dict exists $plan reasons]} {
+                draw_reasons $mol [dict get $plan reasons] $room $bottom $ticks
+            } else {
+                draw_bar $mol $half_width $bottom $top [value_or $plan first 33]
+                graphics $mol color [legend_text_color]
+                draw_ticks $mol $positions $bottom
+            }
             graphics $mol color [legend_text_color]
-            draw_ticks $mol $positions $bottom
             set text [legend_title $plan]
             draw_text $mol $text 0 $title [expr {0.95 * [text_size_within $text 1.0 $room]}]
             set size [expr {0.85 * max(0.65, min(1.0, 1.6 * $room))}]
@@ -190,6 +195,41 @@ namespace eval ::espdiff {
             lassign $ids left right
             graphics $mol tricolor $a $c $d {0 0 1} {0 0 1} {0 0 1} $left $right $right
             graphics $mol tricolor $a $d $b {0 0 1} {0 0 1} {0 0 1} $left $right $left
+        }
+    }
+
+    # A square and words for each reason, in two rows where one has no room.
+    proc draw_reasons {mol reasons room first second} {
+        variable reason_colors
+        set entries {}
+        foreach {reason words area} $reasons {
+            lappend entries [list [lindex $reason_colors $reason] "$words [format %.3g [expr {100 * $area}]] %"]
+        }
+        set n [llength $entries]
+        set in_first [expr {$n > 3 ? ($n + 1) / 2 : $n}]
+        foreach row [list [lrange $entries 0 $in_first-1] [lrange $entries $in_first end]] y [list $first $second] {
+            set all ""
+            foreach entry $row { append all [lindex $entry 1] "     " }
+            set size [text_size_within $all 0.85 $room]
+            set square [expr {0.05 * $size}]
+            set width 0
+            foreach entry $row { set width [expr {$width + 4 * $square + $size * [text_width [lindex $entry 1]]}] }
+            set x [expr {-0.5 * $width}]
+            foreach entry $row {
+                lassign $entry color words
+                graphics $mol color $color
+                set corners {}
+                foreach {dx dy} [list 0 0 0 $square $square 0 $square $square] {
+                    lappend corners [list [expr {$x + $dx}] [expr {$y + $dy}] 0]
+                }
+                lassign $corners a b c d
+                graphics $mol triangle $a $c $d
+                graphics $mol triangle $a $d $b
+                set length [expr {$size * [text_width $words]}]
+                graphics $mol color [legend_text_color]
+                draw_text $mol $words [expr {$x + 1.6 * $square + 0.5 * $length}] $y $size
+                set x [expr {$x + 4 * $square + $length}]
+            }
         }
     }
 

@@ -105,7 +105,7 @@ const Rooms kAllowed = {
       "frames",    "trajectory", "matrix", "ensemble", "study", "cli",    "cli/words"}},
     {"vmdplugin",
      {"system", "base", "align", "engine", "field", "io", "statistics", "pair", "prepare", "potential", "plot",
-      "report", "page", "frames", "trajectory", "matrix", "ensemble", "study"}},
+      "report", "page", "scene", "frames", "trajectory", "matrix", "ensemble", "study"}},
     {"python/src",
      {"base", "align", "engine", "field", "io", "statistics", "pair", "prepare", "potential", "report", "frames",
       "trajectory", "matrix", "ensemble", "study", "plot", "page", "cli"}},

@@ -60,6 +60,35 @@ espdiff::Molecule chain_of(std::size_t n) {
   return molecule;
 }
 
+/// The same chain with backbones: residues 1 to 12 are an alpha helix (cylinder coordinates fitted to its bond lengths
+/// and to a hydrogen bond of 2.9 A), the others lie far from each other.
+espdiff::Molecule helix_and_loop(std::size_t n) {
+  struct Place {
+    const char* name;
+    double radius, degrees, height;
+  };
+  constexpr Place kBackbone[] = {
+      {"N", 1.56, -27.14, -0.89}, {"CA", 2.28, -0.17, 0.02}, {"C", 1.66, 27.31, 1.06}, {"O", 1.95, 22.5, 2.25}};
+  espdiff::Molecule molecule = chain_of(n);
+  molecule.atoms.clear();
+  molecule.positions.clear();
+  for (std::size_t r = 0; r < n; ++r) {
+    const auto turn = static_cast<double>(r);
+    const double rise = r < 12 ? 1.5 : 10;
+    for (const Place& place : kBackbone) {
+      espdiff::Atom atom;
+      atom.name = place.name;
+      atom.element = std::string(place.name, 1);
+      atom.residue = static_cast<std::int32_t>(r);
+      molecule.atoms.push_back(atom);
+      const double angle = (place.degrees + 100 * turn) * 3.14159265358979 / 180;
+      molecule.positions.push_back(
+          {place.radius * std::cos(angle), place.radius * std::sin(angle), place.height + rise * turn});
+    }
+  }
+  return molecule;
+}
+
 }  // namespace
 
 TEST_SUITE_BEGIN("trusted area");
@@ -81,6 +110,20 @@ TEST_CASE("each triangle has the first reason that holds") {
   CHECK(espdiff::why_of_mapping(s, std::vector<std::int32_t>(8, -1)) ==
         codes({Why::kTrusted, Why::kUnmatched, Why::kCorrupt, Why::kTrusted, Why::kSlipped, Why::kTrusted,
                Why::kTrusted, Why::kTrusted}));
+}
+
+TEST_CASE("what turned off is not trusted: residues always, side chains where they are left out") {
+  MappedSurface s = separate_triangles(4);
+  const std::vector<std::int32_t> target_of = {0, 1, 2, 3};
+  s.turned.assign(12, 0);
+  s.turned[0] = s.turned[1] = 2;  // two corners of three on a residue
+  s.turned[3] = 2;                // one
+  s.turned[6] = s.turned[7] = 1;  // two on a side chain
+  s.turned[9] = s.turned[10] = 2;
+  s.slip[9] = s.slip[10] = s.slip[11] = 9;
+  CHECK(espdiff::why_of_mapping(s, target_of) == codes({Why::kTurned, Why::kTrusted, Why::kTrusted, Why::kSlipped}));
+  CHECK(espdiff::why_of_mapping(s, target_of, true) ==
+        codes({Why::kTurned, Why::kTrusted, Why::kTurned, Why::kSlipped}));
 }
 
 TEST_CASE("a point on a residue that touches its own counts within 0.2 A") {
@@ -164,6 +207,23 @@ TEST_CASE("parts are named by runs of residues, largest first") {
         std::vector<std::string>{"ALA 5 to ALA 7 of chain A (64 A^2): slipped off its atoms",
                                  "ALA 2 of chain A (32 A^2): unmatched",
                                  "NAD 8 of chain A (32 A^2): on another residue"});
+}
+
+TEST_CASE("parts are named by helix, strand and loop where the backbone is known") {
+  MappedSurface s = separate_triangles(20);
+  for (espdiff::Vec3d& p : s.source_positions) p = 8.0 * p;
+  const auto parts = [&](const std::vector<std::size_t>& untrusted) {
+    s.why.assign(20, static_cast<std::uint8_t>(Why::kTrusted));
+    for (const std::size_t r : untrusted) s.why[r] = static_cast<std::uint8_t>(Why::kSlipped);
+    return espdiff::untrusted_parts(s, espdiff::residue_rows(s, 20, false), helix_and_loop(20));
+  };
+  const std::string slipped = "slipped off its atoms";
+  CHECK(parts({3, 4, 5, 14, 17, 18}) ==
+        std::vector<std::string>{"helix ALA 4 to ALA 6 of chain A (96 A^2): " + slipped,
+                                 "loop ALA 18 to ALA 19 of chain A (64 A^2): " + slipped,
+                                 "ALA 15 of chain A, in a loop (32 A^2): " + slipped});
+  CHECK(parts({7, 8, 9, 10, 11, 12}) ==
+        std::vector<std::string>{"helix and loop ALA 8 to ALA 13 of chain A (192 A^2): " + slipped});
 }
 
 TEST_CASE("the whole surface is estimated from the residues' own surfaces, and bounded by the largest difference") {

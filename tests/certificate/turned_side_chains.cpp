@@ -11,6 +11,8 @@
 #include "certificate/result.h"
 
 using espdiff::Molecule;
+using espdiff::Turn;
+using espdiff::TurnedAtom;
 using espdiff::Vec3d;
 
 namespace {
@@ -65,10 +67,10 @@ espdiff::AtomPairing all_paired(const Molecule& molecule) {
 }
 
 std::string names_of_turned(const Molecule& source, const Molecule& target) {
-  const std::vector<std::uint8_t> flags = espdiff::turned_atoms(source, target, all_paired(source));
+  const std::vector<TurnedAtom> atoms = espdiff::turned_atoms(source, target, all_paired(source));
   std::string names;
-  for (std::size_t i = 0; i < flags.size(); ++i) {
-    if (flags[i] != 0) names += (names.empty() ? "" : " ") + source.atoms[i].name;
+  for (std::size_t i = 0; i < atoms.size(); ++i) {
+    if (atoms[i].turn == Turn::kSideChain) names += (names.empty() ? "" : " ") + source.atoms[i].name;
   }
   return names;
 }
@@ -106,7 +108,51 @@ TEST_SUITE("compare.turned_side_chains") {
     Molecule source = lysine();
     source.atoms[2].name = "CX";
     CHECK(names_of_turned(source, turned(source, 1, 4, 5, 120)).empty());
-    CHECK(espdiff::turned_atoms(lysine(), lysine(), {}) == std::vector<std::uint8_t>(10, 0));
+    for (const TurnedAtom& atom : espdiff::turned_atoms(lysine(), lysine(), {})) CHECK(atom.turn == Turn::kNone);
+  }
+
+  TEST_CASE("what turned carries its atoms and their neighbours to where they went") {
+    const Molecule source = lysine(), target = turned(source, 4, 6, 7, -120);
+    const std::vector<TurnedAtom> atoms = espdiff::turned_atoms(source, target, all_paired(source));
+    for (const std::size_t i : {6U, 7U, 8U, 9U}) {
+      for (const std::size_t beside : {6U, 7U, 8U, 9U}) {
+        const Vec3d off = atoms[i].carried.apply(source.positions[beside]) - target.positions[beside];
+        CHECK(norm(off) < 1e-9);
+      }
+    }
+  }
+
+  TEST_CASE("a residue turned against those around it turned as a whole") {
+    Molecule source;
+    for (std::int32_t r = 0; r < 8; ++r) {  // CA on the corners of a cube of 5 A
+      source.residues.push_back({"ALA", "A", r + 1, ' '});
+      const Vec3d ca{5.0 * (r % 2), 5.0 * (r / 2 % 2), 5.0 * (r / 4)};
+      for (const NamedPlace& place : {NamedPlace{"N", "N", {-1.4, 0.3, 0}}, NamedPlace{"CA", "C", {0, 0, 0}},
+                                      NamedPlace{"C", "C", {0.6, 1.2, -0.7}}, NamedPlace{"CB", "C", {0.4, 0, 1.5}}}) {
+        espdiff::Atom atom;
+        atom.name = place.name;
+        atom.element = place.element;
+        atom.residue = r;
+        source.atoms.push_back(atom);
+        source.positions.push_back(ca + place.at);
+      }
+    }
+    const auto with_first_turned = [&](double degrees) {
+      Molecule target = source;
+      const double angle = degrees * espdiff::kPi / 180;
+      for (std::size_t i = 0; i < 4; ++i) {  // about z
+        const Vec3d p = target.positions[i];
+        target.positions[i] = {std::cos(angle) * p.x - std::sin(angle) * p.y,
+                               std::sin(angle) * p.x + std::cos(angle) * p.y, p.z};
+      }
+      for (Vec3d& p : target.positions) p = Vec3d{7, 0, 0} + Vec3d{-p.y, p.x, p.z};  // another frame
+      return espdiff::turned_atoms(source, target, all_paired(source));
+    };
+    for (const TurnedAtom& atom : with_first_turned(45)) CHECK(atom.turn == Turn::kNone);
+    const std::vector<TurnedAtom> atoms = with_first_turned(90);
+    for (std::size_t i = 0; i < atoms.size(); ++i) CHECK(atoms[i].turn == (i < 4 ? Turn::kResidue : Turn::kNone));
+    // A quarter about z here, and one of the frame: half a turn in all.
+    CHECK(norm(atoms[0].carried.apply({1, 2, 3}) - Vec3d{6, -2, 3}) < 1e-9);
   }
 
   TEST_CASE("the area of turned side chains is a share of the trusted, and the rest has its own mean difference") {

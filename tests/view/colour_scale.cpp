@@ -83,8 +83,8 @@ TEST_CASE("array names are read, and errors list them") {
   CHECK(legend_title(RenderArray::kSign, "mV").find("mV") == std::string::npos);
   CHECK(legend_title(RenderArray::kSlip, "mV") == "slip, distance from where the atoms went (\xC3\x85)");
   CHECK(espdiff_test::message_of([] { parse_render_array("charge"); }) ==
-        "cannot colour by 'charge'; use difference, source, target, sign, displacement, magnitude, residue, plain or "
-        "slip");
+        "cannot colour by 'charge'; use difference, source, target, sign, displacement, magnitude, residue, plain, "
+        "slip or why");
 }
 
 TEST_CASE("a field that is zero on most of the surface gets the range of the rest") {

@@ -11,8 +11,8 @@
 #include <map>
 #include <set>
 
+#include "base/molecule/secondary_structure.h"
 #include "io/structures/read_structure.h"
-#include "scene/secondary_structure.h"
 #include "support/test_data.h"
 #include "view/drawings/cartoon.h"
 #include "view/drawings/molecule_actors.h"

@@ -88,6 +88,24 @@ test "another quantity takes its place, with other colours" {
     check "no colour" {[dict get $n red] + [dict get $n blue] + [dict get $n brown] < 20}
 }
 
+test "where it is trusted, and one colour a reason why not elsewhere" {
+    set n [count_pixels before_reasons]
+    espdiff draw $comparison -color why
+    set words [dict values $::espdiff::drawn_texts]
+    foreach expected {trusted slipped {on another residue}} {
+        check "$expected in the legend" {[string match "*$expected *%*" $words]}
+    }
+    check "no fading is explained" {![string match "*uncertain*" $words]}
+    set n [count_pixels reasons]
+    note "    $n"
+    check "light where it is trusted" {[dict get $n light] > 1000}
+    check "yellow and red where it is not" {[dict get $n brown] > 100}
+    set shares 0
+    foreach {reason meaning share} [::espdiff::core::reasons $comparison] { set shares [expr {$shares + $share}] }
+    check "shares add up to what is matched: $shares" {$shares > 0.98 && $shares < 1.0001}
+    check_refused {::espdiff::core::triangles $comparison 0 {reason 99}} {ESPDIFF INPUT} "reason: 99 is none of this surface"
+}
+
 test "signed values in other colours, for a reader to whom red and blue mean something else" {
     set before [state]
     espdiff draw $comparison

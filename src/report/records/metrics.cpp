@@ -184,6 +184,11 @@ std::vector<Metric> make_metrics() {
       {"untrusted_other_residue", "Not trusted, on another residue", S::kCertificate, U::kFraction, kNowhere,
        "Share of the source's surface that lies on another residue than the paired one",
        not_trusted<Why::kOtherResidue>, "/certificate/not_trusted/other_residue", "  or for its place", "off residue"},
+      {"untrusted_turned", "Not trusted, turned", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the source's surface on residues that turned as a whole, farther than 3 A from where their atoms "
+       "went; "
+       "with leave-out-turned on turned side chains, too",
+       not_trusted<Why::kTurned>, "/certificate/not_trusted/turned", "  or for its place", "turned"},
       {"untrusted_disagrees", "Not trusted, disagrees", S::kCertificate, U::kFraction, kNowhere,
        "Share of the source's surface of residues whose difference is not that of their own surfaces",
        not_trusted<Why::kDisagrees>, "/certificate/not_trusted/disagrees", "  or for its potential", "disagrees"},
@@ -191,7 +196,8 @@ std::vector<Metric> make_metrics() {
        "Share of the source's surface outside the maps", not_trusted<Why::kNoPotential>,
        "/certificate/not_trusted/no_potential", "  or for its potential", "missing"},
       {"turned_area_fraction", "Trusted area on turned side chains", S::kCertificate, U::kFraction, kBoth,
-       "Share of the source's trusted area on side chains that turned: there the residue is right, often not its face",
+       "Share of the source's trusted area on side chains that turned, farther than 3 A from where their atoms went: "
+       "there the residue is right, but not its face",
        turned_of_trusted, "/certificate/turned_side_chains/of_trusted_area", "On turned side chains", "area"},
       {"difference_without_turned", "Difference without turned side chains", S::kCertificate, U::kPotential, kNowhere,
        "Mean absolute difference over the trusted area that is on no turned side chain", difference_without_turned,

@@ -92,7 +92,7 @@ std::string turned_in_words(const Record& record) {
   const double rest = record.has_potential() ? record.value_of(without) : kNaN;
   return share + " of the trusted area" +
          (std::isfinite(rest) ? " (without it " + formatted(without, rest) + " " + record.potential_unit() + ")" : "") +
-         ": the residue is right, often not its face: " + named;
+         ": the residue is right, but not its face: " + named;
 }
 
 std::string unknown_signs(const Record& record) {

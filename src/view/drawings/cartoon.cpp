@@ -11,8 +11,8 @@
 
 #include <cmath>
 
+#include "base/molecule/secondary_structure.h"
 #include "base/vector.h"
-#include "scene/secondary_structure.h"
 
 namespace espdiff {
 namespace {

@@ -19,7 +19,7 @@
 #include <map>
 #include <set>
 
-#include "scene/secondary_structure.h"
+#include "base/molecule/secondary_structure.h"
 #include "view/drawings/cartoon.h"
 
 namespace espdiff {

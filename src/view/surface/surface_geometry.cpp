@@ -14,6 +14,7 @@
 
 #include "base/smooth_field.h"
 #include "scene/map_sampling.h"
+#include "scene/reasons.h"
 
 namespace espdiff {
 namespace {
@@ -117,6 +118,20 @@ void add_borders(vtkPolyData* data, const SurfaceCover& cover, const std::vector
                      cover.trusted[i]);
 }
 
+/// Smooth shares of the reasons but the first, "trusted", which has the rest.
+void add_reasons(vtkPolyData* data, const SurfaceFile& surface) {
+  std::array<std::vector<float>, kNumberOfDrawnReasons> shares;
+  if (!surface.why.empty())
+    shares = shares_of_reasons({surface.triangles, surface.why, surface.turned}, surface.positions.size());
+  for (const std::size_t first : {1U, 5U}) {
+    vtkFloatArray* array = add_array(data, first == 1 ? "reasonsA" : "reasonsB", 4);
+    for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+      const auto share = [&](std::size_t r) { return shares[r].empty() ? 0.0F : shares[r][v]; };
+      array->SetTuple4(static_cast<vtkIdType>(v), share(first), share(first + 1), share(first + 2), share(first + 3));
+    }
+  }
+}
+
 std::vector<Vec3f> floats(const std::vector<Vec3d>& vectors) {
   std::vector<Vec3f> result;
   result.reserve(vectors.size());
@@ -185,6 +200,7 @@ SurfaceGeometry::SurfaceGeometry(const SurfaceFile& surface, const RunRecord& re
               -1);
   add_numbers(points_, "residueIndex", surface.residue_index, -1);
   add_borders(points_, cover_, share_of_residues(surface, outlined));
+  add_reasons(points_, surface);
 }
 
 bool SurfaceGeometry::draws(SurfacePart part, std::size_t triangle) const {

@@ -11,6 +11,7 @@
 #include <vtkShaderProgram.h>
 
 #include "base/error.h"
+#include "scene/reasons.h"
 #include "view/surface/shader_text.h"
 
 namespace espdiff {
@@ -45,7 +46,7 @@ void set_integer(vtkShaderProgram* program, const char* name, int value) {
 constexpr std::size_t kColours = 2048;
 
 /// kReadBack of shaders/surface.frag.
-constexpr int kReadBack = 9;
+constexpr int kReadBack = 10;
 
 }  // namespace
 
@@ -171,6 +172,8 @@ void SurfaceMapper::set_colour_uniforms(vtkShaderProgram* program) {
   set_colour(program, "sameSignColour", kSameSignColour);
   set_colour(program, "signChangeColour", kSignChangeColour);
   set_colour(program, "plainColour", kPlainColour);
+  for (std::size_t r = 0; r < kDrawnReasons.size(); ++r)
+    set_colour(program, ("reasonColours[" + std::to_string(r) + "]").c_str(), kDrawnReasons[r].colour);
 }
 
 }  // namespace espdiff

@@ -19,7 +19,7 @@ enum class SurfacePart { kMatched, kUnmatched };
 /// Names of the point arrays that the shaders need besides positions and normals.
 inline constexpr const char* kSurfaceAttributes[] = {"startMC",         "startNormalMC", "sourcePlace", "targetPlace",
                                                      "vertexPotential", "displacement",  "slip",        "uncertainty",
-                                                     "residueIndex",    "borders"};
+                                                     "residueIndex",    "borders",       "reasonsA",    "reasonsB"};
 
 /// How a surface is drawn; may change between pictures.
 struct SurfaceLook {

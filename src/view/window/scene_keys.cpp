@@ -43,6 +43,7 @@ const std::vector<Key>& keys() {
       colour_key("5", RenderArray::kTarget, "colour: potential of the target"),
       colour_key("6", RenderArray::kSlip, "colour: uncertainty (slip)"),
       colour_key("9", RenderArray::kDisplacement, "colour: displacement"),
+      colour_key("y", RenderArray::kWhy, "colour: where it is trusted, and why not"),
       colour_key("7", RenderArray::kResidue, "colour: residues"),
       colour_key("8", RenderArray::kPlain, "colour: none"),
       {{"l"},

@@ -16,7 +16,7 @@ namespace eval ::espdiff::gui {
         set variable ::espdiff::gui::form
         ttk::frame $path.what
         ttk::combobox $path.what.color -textvariable ${variable}(draw,color) -state readonly -width 12 \
-            -values {difference sign source target slip displacement path_length none}
+            -values {difference sign source target slip displacement path_length why none}
         ttk::label $path.what.of -text of
         ttk::combobox $path.what.field -textvariable ${variable}(draw,field) -state readonly -width 10 -values potential
         foreach name {color field} {
@@ -26,7 +26,7 @@ namespace eval ::espdiff::gui {
         tip $path.what.color "difference: target - source;\
             sign: where it changed; source, target: the potentials; slip: how far each point is from where its own\
             atoms went; displacement: how far each point travelled,\
-            path_length: the path length"
+            path_length: the path length; why: where it is trusted, and why not"
         tip $path.what.field "What differs: the potential, or a field that was compared (Settings, Input, Field)"
         pack $path.what.color -side left -fill x -expand 1
         ttk::combobox $path.surface -textvariable ${variable}(draw,surface) -state readonly -width 12 \
@@ -123,7 +123,7 @@ namespace eval ::espdiff::gui {
         variable form
         variable shown
         variable recolouring
-        if {$shown eq "" || $form(draw,color) in {sign none}} return
+        if {$shown eq "" || $form(draw,color) in {sign why none}} return
         lassign [dict values [::espdiff::drawn_range $shown [chosen_quantity] auto]] low high
         set factor [expr {10.0 ** $place}]
         foreach {end value} [list low $low high $high] {
@@ -171,7 +171,7 @@ namespace eval ::espdiff::gui {
         set has_potentials [expr {$unit ne "" || !$is_shown}]
         set fields [expr {$is_shown ? [dict get [espdiff result $shown] fields] : {}}]
         offer_fields [concat [expr {$has_potentials ? "potential" : ""}] [dict keys $fields]]
-        set colors {slip displacement path_length none}
+        set colors {slip displacement path_length why none}
         if {[dict exists $fields $form(draw,field)]} {
             set field [dict get $fields $form(draw,field)]
             set unit [dict get $field unit]
@@ -183,7 +183,7 @@ namespace eval ::espdiff::gui {
         if {$form(draw,color) ni $colors} { set form(draw,color) slip }
         switch $form(draw,color) {
             slip - displacement - path_length { set unit "\u00c5" }
-            sign - none { set unit "" }
+            sign - why - none { set unit "" }
         }
         $widget(draw,unit) configure -text $unit
         set names [molecule_names]

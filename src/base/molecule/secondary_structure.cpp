@@ -1,5 +1,5 @@
 // secondary_structure.cpp: Kabsch and Sander's hydrogen bonds, turns and bridges.
-#include "scene/secondary_structure.h"
+#include "base/molecule/secondary_structure.h"
 
 #include <array>
 #include <cmath>

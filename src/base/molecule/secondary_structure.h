@@ -1,6 +1,7 @@
 // secondary_structure.h: helices and strands of a protein from its backbone's hydrogen bonds.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "base/types.h"
