@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/map_origin.h"
+#include "system/this_process.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -50,6 +51,7 @@ std::vector<std::vector<double>> contributions(const MapGrid& map, const Surface
   const MapOrigin& origin = *map.origin;
   std::vector<ProbeCharge> probes = given;
   for (ProbeCharge& probe : probes) probe.position = origin.to_map.apply(probe.position);
+  return_free_memory();  // the solver's large arrays do not fit into what the stages before left free
   if (origin.method == PotentialMethod::kPoissonBoltzmann) return pb_contributions(map, readings, probes, progress);
   std::vector<std::vector<double>> result;
   for (const WeightedPlaces& reading : readings) {

@@ -1,6 +1,7 @@
 // conjugate_gradients.cu: the iteration, its updates, and restarts from the true residual.
 #include "cuda/potential/pb/conjugate_gradients.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -43,7 +44,9 @@ SolverReport conjugate_gradients(const GridOperator& a, Multigrid& preconditione
       clear_inner(a.size, x);
       report.relative_residual = true_residual();
     }
-    report.converged = report.relative_residual <= options.tolerance;
+    const bool has_iterated = report.cycles > 0;
+    report.converged =
+        report.relative_residual <= (has_iterated ? std::max(options.tolerance, options.rounding) : options.tolerance);
     const bool is_over = report.cycles >= options.max_cycles || restart == kMostRestarts;
     if (report.converged || is_over || !std::isfinite(report.relative_residual)) break;
     // The first pass finds x itself, the others what rounding left of it.

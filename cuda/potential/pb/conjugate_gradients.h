@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 
 #include "cuda/potential/pb/multigrid.h"
 
@@ -11,6 +12,9 @@ struct SolverOptions {
   double tolerance = 1e-6;  ///< of |b - A x| / norm
   double norm = 1;          ///< residuals are relative to it
   int max_cycles = 100;
+  /// A true residual up to this is accepted where the recursion's is below the tolerance. What is left is the rounding
+  /// of x to single precision; it needs no second part of x where it does no harm.
+  double rounding = 0;
 };
 
 struct SolverReport {
@@ -22,7 +26,12 @@ struct SolverReport {
 
 /// The solver's arrays beside x; [point] each, zero on the border.
 struct SolverWork {
-  explicit SolverWork(std::size_t n_points) : r(n_points, 0), p(n_points, 0), z(n_points, 0) {}
+  explicit SolverWork(std::size_t n_points) : SolverWork(n_points, {}) {}
+  /// In the memory of arrays that are not needed any more, such as those of hold_packed().
+  SolverWork(std::size_t n_points, CoefficientBuffers&& spare)
+      : r(std::move(spare.ex)), p(std::move(spare.ey)), z(std::move(spare.ez)) {
+    for (Buffer<float>* values : {&r, &p, &z}) values->assign(n_points, 0.0F);
+  }
   Buffer<float> r, p, z;
 };
 

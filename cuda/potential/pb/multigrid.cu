@@ -1,7 +1,8 @@
-// multigrid.cu: kernels of the operator, of Gauss-Seidel sweeps, and between grids; the V-cycle.
+// multigrid.cu: kernels of the operator and of Gauss-Seidel sweeps; the V-cycle.
 #include "cuda/potential/pb/multigrid.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "cuda/potential/pb/plane_sweeps.h"
 
@@ -132,111 +133,6 @@ void half_sweep(const GridOperator& a, int colour, const Buffer<float>& b, Buffe
   run_on_grid(a.size, HalfSweep{colour, view_of(a), raw(b), raw(x)});
 }
 
-/// Points of the next coarser grid along an axis. Its last point may lie one step beyond the finer grid.
-int coarser(int n) { return n / 2 + 1; }
-
-/// b of the coarse grid. No coarse point's neighbours lie beyond the fine grid.
-void restrict_to(const GridSize& fine, const Buffer<float>& r, const GridSize& coarse, Buffer<float>& b) {
-  const float* const from = raw(r);
-  float* const to = raw(b);
-  const auto row_of = [=] ESPDIFF_HD(std::size_t index) {
-    const int j = static_cast<int>(index % static_cast<std::size_t>(coarse.ny - 2)) + 1,
-              k = static_cast<int>(index / static_cast<std::size_t>(coarse.ny - 2)) + 1;
-    const float* const low = from + fine.index(0, 2 * j, 2 * k - 1);
-    const float* const mid = from + fine.index(0, 2 * j, 2 * k);
-    const float* const high = from + fine.index(0, 2 * j, 2 * k + 1);
-    const std::size_t row = fine.row();
-    float before = across_weighted(low + 1, mid + 1, high + 1, row);
-    for (int i = 1; i < coarse.nx - 1; ++i) {
-      const int x = 2 * i;
-      const float after = across_weighted(low + x + 1, mid + x + 1, high + x + 1, row);
-      to[coarse.index(i, j, k)] = along_weighted(before, across_weighted(low + x, mid + x, high + x, row), after);
-      before = after;
-    }
-  };
-  for_each_index(static_cast<std::size_t>(coarse.ny - 2) * static_cast<std::size_t>(coarse.nz - 2), row_of);
-}
-
-/// x += trilinear interpolation of the coarse grid's.
-void add_interpolated(const GridSize& coarse, const Buffer<float>& correction, const GridSize& fine, Buffer<float>& x) {
-  const float* const from = raw(correction);
-  float* const to = raw(x);
-  for_each_index(static_cast<std::size_t>(fine.ny - 2) * static_cast<std::size_t>(fine.nz - 2),
-                 [=] ESPDIFF_HD(std::size_t index) {
-                   const int j = static_cast<int>(index % static_cast<std::size_t>(fine.ny - 2)) + 1,
-                             k = static_cast<int>(index / static_cast<std::size_t>(fine.ny - 2)) + 1;
-                   const int j0 = j / 2, j1 = (j + 1) / 2, k0 = k / 2, k1 = (k + 1) / 2;
-                   const float* const a = from + coarse.index(0, j0, k0);
-                   const float* const b = from + coarse.index(0, j1, k0);
-                   const float* const c = from + coarse.index(0, j0, k1);
-                   const float* const d = from + coarse.index(0, j1, k1);
-                   float* const row = to + fine.index(0, j, k);
-                   for (int i = 1; i < fine.nx - 1; ++i) {
-                     const int i0 = i / 2, i1 = (i + 1) / 2;
-                     row[i] += 0.125F * (((a[i0] + b[i0]) + (c[i0] + d[i0])) + ((a[i1] + b[i1]) + (c[i1] + d[i1])));
-                   }
-                 });
-}
-
-/// Two faces in series.
-ESPDIFF_INLINE float in_series(float a, float b) { return 2.0F * a * b / (a + b); }
-
-struct Step {
-  std::size_t along, side, up;  ///< to the next point along the face's normal, and across it
-};
-
-/// A coarse face: two fine ones in series, averaged over the lines beside by 1/4, 1/8, 1/16.
-ESPDIFF_INLINE float coarse_face(const float* e, const GridSize& fine, int axis, int i, int j, int k) {
-  const int n[3] = {fine.nx, fine.ny, fine.nz};
-  float sum = 0, weights = 0;
-  for (int u = -1; u <= 1; ++u) {
-    for (int v = -1; v <= 1; ++v) {
-      int at[3] = {2 * i, 2 * j, 2 * k};
-      at[(axis + 1) % 3] += u;
-      at[(axis + 2) % 3] += v;
-      bool inside = true;
-      for (int a = 0; a < 3; ++a) inside = inside && at[a] >= 0 && at[a] < n[a];
-      if (!inside || at[axis] > n[axis] - 2) continue;
-      int next[3] = {at[0], at[1], at[2]};
-      if (at[axis] + 1 < n[axis] - 1) ++next[axis];
-      const float weight = (u == 0 ? 2.0F : 1.0F) * (v == 0 ? 2.0F : 1.0F);
-      sum += weight * in_series(e[fine.index(at[0], at[1], at[2])], e[fine.index(next[0], next[1], next[2])]);
-      weights += weight;
-    }
-  }
-  return weights > 0 ? sum / weights : 1.0F;
-}
-
-void coarsen(const GridOperator& fine, GridOperator& coarse) {
-  const GridSize f = fine.size;
-  const GridSize c{coarser(f.nx), coarser(f.ny), coarser(f.nz)};
-  coarse.size = c;
-  for (Buffer<float>* buffer : {&coarse.ex, &coarse.ey, &coarse.ez, &coarse.diagonal}) buffer->resize(c.points());
-  const OperatorView from = view_of(fine);
-  float* const ex = raw(coarse.ex);
-  float* const ey = raw(coarse.ey);
-  float* const ez = raw(coarse.ez);
-  float* const diagonal = raw(coarse.diagonal);
-  for_each_index(c.points(), [=] ESPDIFF_HD(std::size_t p) {
-    const int i = static_cast<int>(p % c.row()), j = static_cast<int>(p / c.row() % static_cast<std::size_t>(c.ny)),
-              k = static_cast<int>(p / c.plane());
-    ex[p] = coarse_face(from.ex, f, 0, i, j, k);
-    ey[p] = coarse_face(from.ey, f, 1, i, j, k);
-    ez[p] = coarse_face(from.ez, f, 2, i, j, k);
-    // k is the diagonal minus the faces; it quadruples with the doubled spacing.
-    float ions = 0;
-    const bool is_inner = i > 0 && j > 0 && k > 0 && 2 * i < f.nx - 1 && 2 * j < f.ny - 1 && 2 * k < f.nz - 1;
-    if (is_inner) {
-      const std::size_t q = f.index(2 * i, 2 * j, 2 * k);
-      const float faces =
-          (from.ex[q] + from.ex[q - 1]) + (from.ey[q] + from.ey[q - from.row]) + (from.ez[q] + from.ez[q - from.plane]);
-      ions = 4.0F * larger(from.diagonal[q] - faces, 0.0F);
-    }
-    diagonal[p] = ions;
-  });
-  add_faces_to_diagonal(coarse);
-}
-
 }  // namespace
 
 double dot_product(const Buffer<float>& a, const Buffer<float>& b) {
@@ -265,11 +161,27 @@ void apply_operator(const GridOperator& a, const Buffer<float>& x, Buffer<float>
   run_on_grid(a.size, Apply{0, view_of(a), raw(x), raw(y)});
 }
 void subtract_exactly(const GridOperator& a, const Buffer<float>& x, const Buffer<float>& low, Buffer<float>& r) {
+#if !defined(ESPDIFF_BACKEND_CUDA)
+  if (a.packed != nullptr) return subtract_exactly_by_rows(a, x, low, r);
+#endif
   if (low.empty()) {
     run_on_grid(a.size, ExactResidual<false>{0, view_of(a), raw(x), nullptr, raw(r)});
   } else {
     run_on_grid(a.size, ExactResidual<true>{0, view_of(a), raw(x), raw(low), raw(r)});
   }
+}
+
+CoefficientBuffers hold_packed(GridOperator& a, std::shared_ptr<const PackedOperator> packed) {
+  CoefficientBuffers given;
+#if !defined(ESPDIFF_BACKEND_CUDA)
+  if (packed != nullptr) {
+    std::swap(given, static_cast<CoefficientBuffers&>(a));
+    a.packed = std::move(packed);
+  }
+#else
+  (void)a, (void)packed;
+#endif
+  return given;
 }
 
 void clear_inner(const GridSize& size, Buffer<float>& x) { run_on_grid(size, Clear{0, raw(x)}); }

@@ -19,12 +19,25 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
+class PackedOperator;
+
 /// The operator's coefficients on one grid.
-struct GridOperator {
-  GridSize size;
+struct CoefficientBuffers {
   Buffer<float> ex, ey, ez;  ///< [point] dielectric of the face towards the next point along x, y, z
   Buffer<float> diagonal;    ///< [point] sum of the six faces' and k
 };
+
+/// The operator on one grid.
+struct GridOperator : CoefficientBuffers {
+  GridSize size;
+  /// Instead of the arrays, which are empty then; see hold_packed().
+  std::shared_ptr<const PackedOperator> packed;
+};
+
+/// Gives up the arrays of a grid whose coefficients are packed as well, for other uses of their memory. Only for the
+/// finest grid, after the coarse ones are made. On a device, where kernels read arrays, or if there are no packed ones,
+/// they stay, and what returns is empty.
+CoefficientBuffers hold_packed(GridOperator& on_grid, std::shared_ptr<const PackedOperator> packed);
 
 /// Adds the six faces' dielectrics to the diagonal, which is k before.
 void add_faces_to_diagonal(GridOperator& on_grid);
@@ -48,6 +61,15 @@ ESPDIFF_INLINE float across_weighted(const float* low, const float* mid, const f
 ESPDIFF_INLINE float along_weighted(float before, float here, float after) {
   return 0.5F * (here + 0.5F * (before + after));
 }
+
+// Between a grid and the next coarser one (grid_transfer.cu).
+
+/// The coarse grid's size and coefficients, from the fine grid's arrays.
+void coarsen(const GridOperator& fine, GridOperator& coarse);
+/// b of the coarse grid, the restricted residual.
+void restrict_to(const GridSize& fine, const Buffer<float>& r, const GridSize& coarse, Buffer<float>& b);
+/// x += trilinear interpolation of the coarse grid's.
+void add_interpolated(const GridSize& coarse, const Buffer<float>& correction, const GridSize& fine, Buffer<float>& x);
 
 class PlaneSweeps;
 

@@ -1,8 +1,10 @@
-// packed_operator.h: the coefficients of a Poisson-Boltzmann operator in a byte a point, so that readings of its
-// potential need not make them again.
+// packed_operator.h: the coefficients of a Poisson-Boltzmann operator in a byte a point: what the arrays of
+// GridOperator hold in sixteen.
 //
 // Nearly all faces have the solute's dielectric or the solvent's, and k is that of ions or zero. A point's byte says
-// which for its three faces and k; other values, of faces that the boundary cuts, are listed. Nothing is rounded.
+// which for its three faces and k; other values, of faces that the boundary cuts, are listed. Nothing is rounded. The
+// CPU's sweeps read packed rows (operator_rows.h), so that a solution holds no arrays of coefficients, and readings of
+// its potential need not make them again.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +20,25 @@ struct UsualCoefficients {
   float ions = 0;                 ///< k where ions can be; 0 elsewhere
 };
 
+/// A face of a row of points that has another value than those.
+struct ListedFace {
+  std::uint32_t place;  ///< four times the point's place in the row, plus the axis
+  float dielectric;
+
+  ESPDIFF_INLINE std::uint32_t point() const { return place / 4; }
+  ESPDIFF_INLINE std::uint32_t axis() const { return place % 4; }
+};
+
+/// Packed coefficients, for kernels. A row of points along x is numbered y + ny z.
+struct PackedView {
+  const std::uint8_t* codes;          ///< [point] a bit for each face (1 solute, 0 solvent), one for k
+  const std::uint32_t* first_of_row;  ///< [row + 1] of `listed`
+  const ListedFace* listed;           ///< in the order of points, then of x, y, z
+  UsualCoefficients usual;
+
+  static constexpr unsigned kIonsBit = 8;
+};
+
 class PackedOperator {
  public:
   /// @param on_grid of fill_pb_operator(); its diagonal holds k alone
@@ -25,13 +46,14 @@ class PackedOperator {
   static std::shared_ptr<const PackedOperator> pack(const GridOperator& on_grid, const UsualCoefficients& usual);
   /// Fills in the coefficients, bit by bit those that were packed; the diagonal holds k alone.
   void unpack(GridOperator& on_grid) const;
+  PackedView view() const { return {raw(codes_), raw(first_of_row_), raw(listed_), usual_}; }
 
  private:
   GridSize size_;
   UsualCoefficients usual_;
-  Buffer<std::uint8_t> codes_;          ///< [point] two bits for each face (0 solvent, 1 solute, 2 listed), one for k
-  Buffer<std::uint32_t> first_of_row_;  ///< [row] of `listed_`
-  Buffer<float> listed_;                ///< in the order of points, then of x, y, z
+  Buffer<std::uint8_t> codes_;
+  Buffer<std::uint32_t> first_of_row_;
+  Buffer<ListedFace> listed_;
 };
 
 }  // namespace espdiff::ESPDIFF_BACKEND

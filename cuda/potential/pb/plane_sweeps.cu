@@ -1,180 +1,17 @@
-// plane_sweeps.cu: the loops over a plane, and passes in which they follow each other.
+// plane_sweeps.cu: passes in which the loops over planes follow each other.
 #include "cuda/potential/pb/plane_sweeps.h"
 
 #include <omp.h>
 
 #include <algorithm>
 
+#include "cuda/potential/pb/plane_loops.h"
+
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
 /// Planes of a range below which another thread would not pay.
 constexpr int kFewestPlanes = 8;
-
-/// The operator on plane k: pointers to its first point.
-struct PlaneOperator {
-  const float* ex;
-  const float* ey;
-  const float* ez;
-  const float* diagonal;
-  int nx, ny, k;
-  std::size_t row, plane;
-
-  /// sum of eps_f x_q over the six neighbours of point p of the plane.
-  ESPDIFF_INLINE float neighbours(const float* below, const float* here, const float* above, std::size_t p) const {
-    const float along_x = ex[p] * here[p + 1] + ex[p - 1] * here[p - 1];
-    const float along_y = ey[p] * here[p + row] + ey[p - row] * here[p - row];
-    const float along_z = ez[p] * above[p] + *(ez + p - plane) * below[p];
-    return along_x + along_y + along_z;
-  }
-};
-
-PlaneOperator plane_of(const GridOperator& a, int k) {
-  const std::size_t first = a.size.index(0, 0, k);
-  return {raw(a.ex) + first, raw(a.ey) + first, raw(a.ez) + first, raw(a.diagonal) + first, a.size.nx, a.size.ny, k,
-          a.size.row(),      a.size.plane()};
-}
-
-/// Three neighbouring planes.
-struct Planes {
-  const float* below;
-  const float* here;
-  const float* above;
-};
-
-ESPDIFF_MULTIVERSION void start_plane(const PlaneOperator& given, const float* b, float* x) {
-  const PlaneOperator a = given;
-  for (int j = 1; j < a.ny - 1; ++j) {
-    const std::size_t first = a.row * static_cast<std::size_t>(j);
-    const int parity = j + a.k;
-#pragma GCC ivdep
-    for (int i = 1; i < a.nx - 1; ++i) {
-      const std::size_t p = first + static_cast<std::size_t>(i);
-      x[p] = ((i + parity) & 1) == 0 ? b[p] / a.diagonal[p] : 0.0F;
-    }
-  }
-}
-
-/// Half a sweep: `out` is `here` with the colour's points renewed. Not in place: a vector would be loaded across the
-/// one just stored, which stalls.
-ESPDIFF_MULTIVERSION void sweep_plane(const PlaneOperator& given, int colour, const float* b, const Planes& x,
-                                      float* out) {
-  const PlaneOperator a = given;
-  const float* const below = x.below;
-  const float* const here = x.here;
-  const float* const above = x.above;
-  for (int j = 1; j < a.ny - 1; ++j) {
-    const std::size_t first = a.row * static_cast<std::size_t>(j);
-    const int parity = j + a.k;
-#pragma GCC ivdep
-    for (int i = 1; i < a.nx - 1; ++i) {
-      const std::size_t p = first + static_cast<std::size_t>(i);
-      const float renewed = (b[p] + a.neighbours(below, here, above, p)) / a.diagonal[p];
-      out[p] = ((i + parity) & 1) == colour ? renewed : here[p];
-    }
-  }
-}
-
-/// The residual after a red and a black half sweep from zero: that of black points is zero.
-ESPDIFF_MULTIVERSION void residual_plane(const PlaneOperator& given, const Planes& x, float* r) {
-  const PlaneOperator a = given;
-  const float* const below = x.below;
-  const float* const here = x.here;
-  const float* const above = x.above;
-  for (int j = 1; j < a.ny - 1; ++j) {
-    const std::size_t first = a.row * static_cast<std::size_t>(j);
-    const int parity = j + a.k;
-#pragma GCC ivdep
-    for (int i = 1; i < a.nx - 1; ++i) {
-      const std::size_t p = first + static_cast<std::size_t>(i);
-      const float of_red = a.neighbours(below, here, above, p);
-      r[p] = ((i + parity) & 1) == 0 ? of_red : 0.0F;
-    }
-  }
-}
-
-/// A plane of restrict_to(); see there. @param line [nx] is overwritten
-ESPDIFF_MULTIVERSION void restrict_plane(const GridSize& fine, const Planes& r, const GridSize& coarse, float* line,
-                                         float* b) {
-  const std::size_t row = fine.row();
-  const int nx = fine.nx;
-  for (int j = 1; j < coarse.ny - 1; ++j) {
-    const float* const low = r.below + row * static_cast<std::size_t>(2 * j);
-    const float* const mid = r.here + row * static_cast<std::size_t>(2 * j);
-    const float* const high = r.above + row * static_cast<std::size_t>(2 * j);
-#pragma GCC ivdep
-    for (int i = 0; i < nx; ++i) line[i] = across_weighted(low + i, mid + i, high + i, row);
-    float* const out = b + coarse.row() * static_cast<std::size_t>(j);
-#pragma GCC ivdep
-    for (int i = 1; i < coarse.nx - 1; ++i) out[i] = along_weighted(line[2 * i - 1], line[2 * i], line[2 * i + 1]);
-  }
-}
-
-/// A plane of add_interpolated(): out = x + the correction between coarse planes `below` and `above`.
-ESPDIFF_MULTIVERSION void interpolate_plane(const GridSize& coarse, const float* below, const float* above,
-                                            const GridSize& fine, const float* x, float* line, float* out) {
-  const std::size_t row = coarse.row();
-  for (int j = 1; j < fine.ny - 1; ++j) {
-    const float* const a = below + row * static_cast<std::size_t>(j / 2);
-    const float* const b = below + row * static_cast<std::size_t>((j + 1) / 2);
-    const float* const c = above + row * static_cast<std::size_t>(j / 2);
-    const float* const d = above + row * static_cast<std::size_t>((j + 1) / 2);
-#pragma GCC ivdep
-    for (int i = 0; i < coarse.nx; ++i) line[i] = (a[i] + b[i]) + (c[i] + d[i]);
-    const float* const from = x + fine.row() * static_cast<std::size_t>(j);
-    float* const to = out + fine.row() * static_cast<std::size_t>(j);
-    to[1] = from[1] + 0.125F * (line[0] + line[1]);
-    const int pairs = (fine.nx - 3) / 2;  // of an even and an odd point
-#pragma GCC ivdep
-    for (int i = 1; i <= pairs; ++i) {
-      to[2 * i] = from[2 * i] + 0.125F * (line[i] + line[i]);
-      to[2 * i + 1] = from[2 * i + 1] + 0.125F * (line[i] + line[i + 1]);
-    }
-    const int last = fine.nx - 2;
-    if (last % 2 == 0 && last > 1) to[last] = from[last] + 0.125F * (line[last / 2] + line[last / 2]);
-  }
-}
-
-ESPDIFF_MULTIVERSION void turn_plane(float beta, const float* z, const float* from, std::size_t n, float* p) {
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < n; ++i) p[i] = z[i] + beta * from[i];
-}
-
-ESPDIFF_MULTIVERSION void apply_plane(const PlaneOperator& given, const Planes& x, float* y) {
-  const PlaneOperator a = given;
-  const float* const below = x.below;
-  const float* const here = x.here;
-  const float* const above = x.above;
-  for (int j = 1; j < a.ny - 1; ++j) {
-    const std::size_t first = a.row * static_cast<std::size_t>(j);
-#pragma GCC ivdep
-    for (int i = 1; i < a.nx - 1; ++i) {
-      const std::size_t p = first + static_cast<std::size_t>(i);
-      y[p] = a.diagonal[p] * here[p] - a.neighbours(below, here, above, p);
-    }
-  }
-}
-
-/// sum a_i b_i, in lanes whose number does not depend on the processor.
-ESPDIFF_MULTIVERSION double dot_run(const float* a, const float* b, std::size_t n) {
-  LaneSums sums;
-  std::size_t i = 0;
-  for (; i + LaneSums::kLanes <= n; i += LaneSums::kLanes) {
-    for (std::size_t lane = 0; lane < LaneSums::kLanes; ++lane)
-      sums.sum[lane] += static_cast<double>(a[i + lane]) * static_cast<double>(b[i + lane]);
-  }
-  for (std::size_t lane = 0; i < n; ++i, ++lane)
-    sums.sum[lane] += static_cast<double>(a[i]) * static_cast<double>(b[i]);
-  return sums.total();
-}
-
-ESPDIFF_MULTIVERSION void advance_run(float alpha, const float* p, const float* q, std::size_t n, float* x, float* r) {
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < n; ++i) {
-    x[i] += alpha * p[i];
-    r[i] -= alpha * q[i];
-  }
-}
 
 /// Zeroes the border of a plane of a grid.
 void clear_border(const GridSize& size, float* plane) {
@@ -227,6 +64,7 @@ void PlaneSweeps::smooth_and_restrict(const GridOperator& a, const Buffer<float>
   float* const restricted = raw(coarse_b);
   for_each_index(static_cast<std::size_t>(n), [&, n](std::size_t range) {
     Own& own = own_[range];
+    OperatorRows rows(a, own.coefficients);
     // Border rows of these planes stay zero, whatever the level's size.
     for (auto* planes : {&own.x, &own.black, &own.r}) {
       for (Buffer<float>& buffer : *planes) clear_border(size, raw(buffer));
@@ -241,14 +79,14 @@ void PlaneSweeps::smooth_and_restrict(const GridOperator& a, const Buffer<float>
     const auto b_of = [&](int k) { return right + plane * static_cast<std::size_t>(k); };
     const int lowest = 2 * part.first - 3, highest = std::max(2 * part.last - 1, last);
     for (int k = std::max(1, lowest); k <= highest + 2; ++k) {
-      if (is_inner(k)) start_plane(plane_of(a, k), b_of(k), x_of(k));
+      if (is_inner(k)) start_plane(rows, size, k, b_of(k), x_of(k));
       const int black = k - 1, done = k - 2;
       if (is_inner(black) && black > lowest)
-        sweep_plane(plane_of(a, black), 1, b_of(black), {x_of(black - 1), x_of(black), x_of(black + 1)},
+        sweep_plane(rows, size, black, 1, b_of(black), {x_of(black - 1), x_of(black), x_of(black + 1)},
                     black_of(black));
       if (done < 1 || done < lowest + 2) continue;
       if (is_inner(done)) {
-        residual_plane(plane_of(a, done), {black_of(done - 1), black_of(done), black_of(done + 1)}, r_of(done));
+        residual_plane(rows, size, done, {black_of(done - 1), black_of(done), black_of(done + 1)}, r_of(done));
         if (done >= first && done < last)
           std::copy_n(black_of(done), plane, out + plane * static_cast<std::size_t>(done));
       }
@@ -281,6 +119,7 @@ double PlaneSweeps::correct_and_smooth(const GridOperator& a, const Buffer<float
   std::vector<double> products(static_cast<std::size_t>(size.nz), 0.0);
   for_each_index(static_cast<std::size_t>(n), [&](std::size_t range) {
     Own& own = own_[range];
+    OperatorRows rows(a, own.coefficients);
     for (auto* planes : {&own.x, &own.black}) {
       for (Buffer<float>& buffer : *planes) clear_border(size, raw(buffer));
     }
@@ -298,11 +137,11 @@ double PlaneSweeps::correct_and_smooth(const GridOperator& a, const Buffer<float
         interpolate_plane(coarse, coarse_of(k / 2), coarse_of((k + 1) / 2), size, before(k), raw(own.row), x_of(k));
       const int black = k - 1, red = k - 2;
       if (is_inner(black) && black >= part.first - 1)
-        sweep_plane(plane_of(a, black), 1, b_of(black), {x_of(black - 1), x_of(black), x_of(black + 1)},
+        sweep_plane(rows, size, black, 1, b_of(black), {x_of(black - 1), x_of(black), x_of(black + 1)},
                     black_of(black));
       if (red < part.first || red >= part.last) continue;
       float* const done = out + plane * static_cast<std::size_t>(red);
-      sweep_plane(plane_of(a, red), 0, b_of(red), {black_of(red - 1), black_of(red), black_of(red + 1)}, done);
+      sweep_plane(rows, size, red, 0, b_of(red), {black_of(red - 1), black_of(red), black_of(red + 1)}, done);
       products[static_cast<std::size_t>(red)] = dot_run(done, b_of(red), plane);
     }
   });
@@ -326,6 +165,7 @@ double PlaneSweeps::turn_and_apply(const GridOperator& a, float beta, Buffer<flo
   std::vector<double> products(static_cast<std::size_t>(size.nz), 0.0);
   for_each_index(static_cast<std::size_t>(n), [&](std::size_t range) {
     Own& own = own_[range];
+    OperatorRows rows(a, own.coefficients);
     const Part part = part_of_range(range);
     const auto p_of = [&](int k) -> const float* {
       if (k < part.first) return raw(own.halo[0]);
@@ -335,11 +175,29 @@ double PlaneSweeps::turn_and_apply(const GridOperator& a, float beta, Buffer<flo
       if (k < part.last) turn_plane(beta, image + at(k), along + at(k), plane, along + at(k));
       const int done = k - 1;
       if (done < part.first) continue;
-      apply_plane(plane_of(a, done), {p_of(done - 1), p_of(done), p_of(done + 1)}, image + at(done));
+      apply_plane(rows, size, done, {p_of(done - 1), p_of(done), p_of(done + 1)}, image + at(done));
       products[static_cast<std::size_t>(done)] = dot_run(along + at(done), image + at(done), plane);
     }
   });
   return total_of(products);
+}
+
+void subtract_exactly_by_rows(const GridOperator& a, const Buffer<float>& x, const Buffer<float>& low,
+                              Buffer<float>& r) {
+  const std::size_t plane = a.size.plane();
+  const float* const high = raw(x);
+  const float* const rest = low.empty() ? nullptr : raw(low);
+  float* const residual = raw(r);
+  const int n = n_ranges(a.size);
+  for_each_index(static_cast<std::size_t>(n), [&, n](std::size_t range) {
+    Buffer<float> coefficients;
+    OperatorRows rows(a, coefficients);
+    const Part part = part_of(1, a.size.nz - 1, static_cast<int>(range), n);
+    for (int k = part.first; k < part.last; ++k) {
+      const std::size_t first = plane * static_cast<std::size_t>(k);
+      subtract_exactly_plane(rows, a.size, k, high + first, rest == nullptr ? nullptr : rest + first, residual + first);
+    }
+  });
 }
 
 double advance_by_runs(float alpha, const Buffer<float>& p, const Buffer<float>& q, Buffer<float>& x,

@@ -31,10 +31,15 @@ class PlaneSweeps {
  private:
   /// Planes of one thread.
   struct Own {
+    Buffer<float> coefficients;                              ///< see OperatorRows
     Buffer<float> zero, x[3], black[3], r[3], halo[4], row;  ///< `black`: x after the black half sweep
   };
   std::vector<Own> own_;
 };
+
+/// subtract_exactly() of a packed operator.
+void subtract_exactly_by_rows(const GridOperator& a, const Buffer<float>& x, const Buffer<float>& low,
+                              Buffer<float>& r);
 
 /// x += alpha p, r -= alpha q. @returns r . r
 double advance_by_runs(float alpha, const Buffer<float>& p, const Buffer<float>& q, Buffer<float>& x, Buffer<float>& r);

@@ -88,31 +88,37 @@ void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& p
   const PoissonBoltzmannOptions& options = problem.options;
   GridOperator on_grid;
   fill_pb_operator(problem.atoms, lattice, problem.constants, options, on_grid);
-  if (kept != nullptr) *kept = PackedOperator::pack(on_grid, usual_coefficients(lattice, problem.constants, options));
   problem.progress.report("potential", 0.2);
   const SortedCharges<double> charges = charges_on_grid(problem.atoms, lattice, problem.constants.coulomb);
   const RightHandSide b = [&](Buffer<float>& values) { spread_rounded(charges, raw(values)); };
-  SolverWork work(lattice.n_points());
   SolverOptions solver;
   solver.tolerance = options.tolerance;
   solver.max_cycles = options.max_cycles;
-  b(work.r);
-  solver.norm = std::sqrt(dot_product(work.r, work.r));
+  const auto set_norm = [&](SolverWork& work) {
+    b(work.r);
+    solver.norm = std::sqrt(dot_product(work.r, work.r));
+  };
   const auto step = [&](double residual) {
     const double part = std::log(residual) / std::log(options.tolerance);
     problem.progress.report("potential", 0.2 + 0.8 * std::min(1.0, std::max(0.0, part)));
   };
   SolverReport solved;
   if (options.nonlinear && options.ionic_strength > 0) {
+    SolverWork work(lattice.n_points());
+    set_norm(work);
     const Buffer<float> k = on_grid.diagonal;
     const NewtonReport newton_report =
         newton(on_grid, k, Buffer<float>(work.r), solver, options.max_newton_steps, work, phi, step);
     solved = newton_report.solver;
     report.newton_steps = newton_report.steps;
   } else {
+    const auto packed = PackedOperator::pack(on_grid, usual_coefficients(lattice, problem.constants, options));
+    if (kept != nullptr) *kept = packed;
     add_faces_to_diagonal(on_grid);
     Multigrid multigrid(on_grid);
     report.levels = multigrid.n_levels();
+    SolverWork work(lattice.n_points(), hold_packed(on_grid, packed));
+    set_norm(work);
     solved = conjugate_gradients(on_grid, multigrid, b, solver, work, phi, step);
   }
   report.relative_residual = solved.relative_residual;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cuda/potential/pb/multigrid.h"
+#include "cuda/potential/pb/packed_operator.h"
 #include "support/random.h"
 
 using namespace espdiff_test;
@@ -103,6 +104,49 @@ TEST_CASE("the direction and its image in one pass are those of two, at any numb
       CHECK(n_different(own_p, direction) == 0);
       CHECK(n_different(own_z, image) == 0);
       CHECK(product == doctest::Approx(dot_product(direction, image)).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("packed coefficients give the bits of arrays, at any number of threads") {
+  for (const GridSize& size : kSizes) {
+    Random random(11);
+    GridOperator arrays = random_operator(size, random);
+    // k alone, where ions are everywhere or nowhere; one face in thirty is cut by the boundary.
+    for (std::size_t p = 0; p < size.points(); ++p) {
+      raw(arrays.diagonal)[p] = random.uniform(0, 1) < 0.3 ? 0.5F : 0.0F;
+      if (random.uniform(0, 1) < 0.1)
+        raw(p % 3 == 0 ? arrays.ex : p % 3 == 1 ? arrays.ey : arrays.ez)[p] = static_cast<float>(random.uniform(3, 70));
+    }
+    const auto packed = espdiff::cpu_backend::PackedOperator::pack(arrays, {2.0F, 78.54F, 0.5F});
+    REQUIRE(packed != nullptr);
+    GridOperator again;
+    packed->unpack(again);
+    CHECK(n_different(again.ex, arrays.ex) + n_different(again.ey, arrays.ey) + n_different(again.ez, arrays.ez) +
+              n_different(again.diagonal, arrays.diagonal) ==
+          0);
+    add_faces_to_diagonal(arrays);
+    const Buffer<float> r = random_values(size, random), low = random_values(size, random);
+    Buffer<float> z(size.points(), 0.0F), direction = r, image = low, rest = r, rest_of_one = r;
+    Multigrid of_arrays(arrays);
+    const double product = of_arrays.precondition(r, z), turned = of_arrays.turn_and_apply(0.4F, image, direction);
+    subtract_exactly(arrays, z, low, rest);
+    subtract_exactly(arrays, z, {}, rest_of_one);
+    for (const int n : {1, 2, 4}) {
+      const Threads threads(n);
+      GridOperator a = arrays;
+      Multigrid multigrid(a);
+      hold_packed(a, packed);
+      REQUIRE(a.ex.empty());
+      Buffer<float> own_z(size.points(), 0.0F), own_p = r, own_q = low, own_rest = r, own_rest_of_one = r;
+      CHECK(multigrid.precondition(r, own_z) == product);
+      CHECK(multigrid.turn_and_apply(0.4F, own_q, own_p) == turned);
+      subtract_exactly(a, own_z, low, own_rest);
+      subtract_exactly(a, own_z, {}, own_rest_of_one);
+      CHECK(n_different(own_z, z) == 0);
+      CHECK(n_different(own_q, image) == 0);
+      CHECK(n_different(own_rest, rest) == 0);
+      CHECK(n_different(own_rest_of_one, rest_of_one) == 0);
     }
   }
 }

@@ -1,0 +1,99 @@
+// operator_rows.cu: unpacks a plane of coefficients.
+#include "cuda/potential/pb/operator_rows.h"
+
+#include <algorithm>
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// The usual dielectrics of a row's faces.
+ESPDIFF_MULTIVERSION void usual_faces(const std::uint8_t* codes, float solvent, float solute, std::size_t n, float* ex,
+                                      float* ey, float* ez) {
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n; ++i) {
+    const int code = codes[i];
+    ex[i] = (code & 1) != 0 ? solute : solvent;
+    ey[i] = (code & 2) != 0 ? solute : solvent;
+    ez[i] = (code & 4) != 0 ? solute : solvent;
+  }
+}
+
+/// The diagonal of inner points: k and the six faces, in the order of add_faces_to_diagonal().
+ESPDIFF_MULTIVERSION void diagonal_of(const std::uint8_t* codes, float ions, const OperatorRow& row, std::size_t n,
+                                      float* out) {
+  const float* const ex = row.ex;
+  const float* const ey = row.ey;
+  const float* const ey_before = row.ey_before;
+  const float* const ez = row.ez;
+  const float* const ez_below = row.ez_below;
+#pragma GCC ivdep
+  for (std::size_t i = 1; i < n - 1; ++i) {
+    const float faces = (ex[i] + ex[i - 1]) + (ey[i] + ey_before[i]) + (ez[i] + ez_below[i]);
+    const int code = codes[i];
+    out[i] = ((code & PackedView::kIonsBit) != 0 ? ions : 0.0F) + faces;
+  }
+}
+
+}  // namespace
+
+OperatorRows::OperatorRows(const GridOperator& of, Buffer<float>& storage) : of_(of), storage_(storage) {
+  const std::size_t needed = of.packed == nullptr ? 0 : of.size.plane() * kPlanes * kArrays;
+  if (storage.size() < needed) storage.assign(needed, 0.0F);
+}
+
+const float* OperatorRows::plane_of(Array array, int k) const {
+  if (of_.packed != nullptr)
+    return raw(storage_) + of_.size.plane() * static_cast<std::size_t>(kArrays * (k % kPlanes) + array);
+  const Buffer<float>* const arrays[kArrays] = {&of_.ex, &of_.ey, &of_.ez, &of_.diagonal};
+  return raw(*arrays[array]) + of_.size.index(0, 0, k);
+}
+
+float* OperatorRows::unpacked(Array array, int k) {
+  return raw(storage_) + of_.size.plane() * static_cast<std::size_t>(kArrays * (k % kPlanes) + array);
+}
+
+OperatorRow OperatorRows::at(int j, int k) const {
+  const std::size_t row = of_.size.row(), first = row * static_cast<std::size_t>(j);
+  const float* const ey = plane_of(kY, k) + first;
+  return {plane_of(kX, k) + first,       ey, ey - row, plane_of(kZ, k) + first, plane_of(kZ, k - 1) + first,
+          plane_of(kDiagonal, k) + first};
+}
+
+void OperatorRows::hold(int k) {
+  if (of_.packed == nullptr || (first_ < k && k <= last_)) return;
+  if (last_ != k - 1) {
+    first_ = k - 1;
+    unpack_faces(k - 1);
+  }
+  unpack_faces(k);
+  unpack_diagonal(k);
+  last_ = k;
+  first_ = std::max(first_, k + 1 - kPlanes);
+}
+
+void OperatorRows::unpack_faces(int k) {
+  const PackedView packed = of_.packed->view();
+  const std::size_t n = of_.size.row(), ny = static_cast<std::size_t>(of_.size.ny);
+  float* const faces[3] = {unpacked(kX, k), unpacked(kY, k), unpacked(kZ, k)};
+  for (std::size_t j = 0; j < ny; ++j) {
+    const std::size_t row = j + ny * static_cast<std::size_t>(k), first = n * j;
+    usual_faces(packed.codes + row * n, packed.usual.solvent, packed.usual.solute, n, faces[0] + first,
+                faces[1] + first, faces[2] + first);
+    for (std::uint32_t listed = packed.first_of_row[row]; listed < packed.first_of_row[row + 1]; ++listed) {
+      const ListedFace& face = packed.listed[listed];
+      faces[face.axis()][first + face.point()] = face.dielectric;
+    }
+  }
+}
+
+void OperatorRows::unpack_diagonal(int k) {
+  const PackedView packed = of_.packed->view();
+  const std::size_t n = of_.size.row();
+  for (int j = 1; j < of_.size.ny - 1; ++j) {
+    const std::size_t first = of_.size.index(0, j, k);
+    diagonal_of(packed.codes + first, packed.usual.ions, at(j, k), n,
+                unpacked(kDiagonal, k) + n * static_cast<std::size_t>(j));
+  }
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

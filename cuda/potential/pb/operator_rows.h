@@ -1,0 +1,48 @@
+// operator_rows.h: the rows of an operator's coefficients, from its arrays or unpacked plane by plane (CPU).
+//
+// Planes that were just unpacked stay in the cache. So a pass over a packed grid reads a sixteenth of what the arrays
+// would have it read from memory.
+#pragma once
+
+#if !defined(ESPDIFF_BACKEND_CUDA)
+
+#include "cuda/potential/pb/packed_operator.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+/// Coefficients of the points of a row along x: [point] each.
+struct OperatorRow {
+  const float* ex;
+  const float* ey;
+  const float* ey_before;  ///< of the row before, y - 1
+  const float* ez;
+  const float* ez_below;  ///< of the row below, z - 1
+  const float* diagonal;  ///< of the inner points
+};
+
+class OperatorRows {
+ public:
+  /// @param of must outlive this object
+  /// @param storage for unpacked planes; kept for the next one, so that each pass need not allocate
+  OperatorRows(const GridOperator& of, Buffer<float>& storage);
+  /// Makes the rows of an inner plane and of the three before it available.
+  void hold(int k);
+  /// An inner row of a plane that is held.
+  OperatorRow at(int j, int k) const;
+
+ private:
+  enum Array { kX, kY, kZ, kDiagonal, kArrays };
+  static constexpr int kPlanes = 4;
+  const float* plane_of(Array array, int k) const;
+  float* unpacked(Array array, int k);
+  void unpack_faces(int k);
+  void unpack_diagonal(int k);
+
+  const GridOperator& of_;
+  Buffer<float>& storage_;
+  int first_ = 0, last_ = -1;  ///< planes whose faces are unpacked
+};
+
+}  // namespace espdiff::ESPDIFF_BACKEND
+
+#endif

@@ -1,0 +1,196 @@
+// plane_loops.cu: the loops over the rows of a plane.
+#include "cuda/potential/pb/plane_loops.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// sum of eps_f x_q over the six neighbours of a row's points, for loops that the compiler vectorizes.
+struct RowNeighbours {
+  const float *ex, *ey, *ey_before, *ez, *ez_below, *below, *here, *above;
+  std::size_t row;
+
+  ESPDIFF_INLINE RowNeighbours(const OperatorRow& a, const Planes& x, std::size_t of_row)
+      : ex(a.ex),
+        ey(a.ey),
+        ey_before(a.ey_before),
+        ez(a.ez),
+        ez_below(a.ez_below),
+        below(x.below),
+        here(x.here),
+        above(x.above),
+        row(of_row) {}
+  ESPDIFF_INLINE float operator()(std::size_t i) const {
+    const float along_x = ex[i] * here[i + 1] + ex[i - 1] * here[i - 1];
+    const float along_y = ey[i] * here[i + row] + ey_before[i] * *(here + i - row);
+    const float along_z = ez[i] * above[i] + ez_below[i] * below[i];
+    return along_x + along_y + along_z;
+  }
+};
+
+ESPDIFF_MULTIVERSION void start_row(const float* diagonal, std::size_t nx, int parity, const float* b, float* x) {
+  const int odd = parity;
+#pragma GCC ivdep
+  for (std::size_t i = 1; i < nx - 1; ++i) x[i] = ((static_cast<int>(i) + odd) & 1) == 0 ? b[i] / diagonal[i] : 0.0F;
+}
+
+ESPDIFF_MULTIVERSION void sweep_row(const OperatorRow& a, std::size_t nx, int parity, int colour, const float* b,
+                                    const Planes& x, float* out) {
+  const RowNeighbours neighbours(a, x, nx);
+  const float* const diagonal = a.diagonal;
+  const float* const here = x.here;
+#pragma GCC ivdep
+  for (std::size_t i = 1; i < nx - 1; ++i) {
+    const float renewed = (b[i] + neighbours(i)) / diagonal[i];
+    out[i] = ((static_cast<int>(i) + parity) & 1) == colour ? renewed : here[i];
+  }
+}
+
+ESPDIFF_MULTIVERSION void residual_row(const OperatorRow& a, std::size_t nx, int parity, const Planes& x, float* r) {
+  const RowNeighbours neighbours(a, x, nx);
+#pragma GCC ivdep
+  for (std::size_t i = 1; i < nx - 1; ++i) r[i] = ((static_cast<int>(i) + parity) & 1) == 0 ? neighbours(i) : 0.0F;
+}
+
+ESPDIFF_MULTIVERSION void apply_row(const OperatorRow& a, std::size_t nx, const Planes& x, float* y) {
+  const RowNeighbours neighbours(a, x, nx);
+  const float* const diagonal = a.diagonal;
+  const float* const here = x.here;
+#pragma GCC ivdep
+  for (std::size_t i = 1; i < nx - 1; ++i) y[i] = diagonal[i] * here[i] - neighbours(i);
+}
+
+/// The terms of A x in double precision, for x in one or two parts.
+template <bool kTwoParts>
+ESPDIFF_INLINE void subtract_row(const OperatorRow& a, std::size_t nx, std::size_t plane, const float* x,
+                                 const float* low, float* r) {
+  const OperatorRow of = a;
+  const auto whole = [=](std::size_t p) ESPDIFF_INLINE_LAMBDA {
+    if constexpr (kTwoParts) return static_cast<double>(x[p]) + static_cast<double>(low[p]);
+    return static_cast<double>(x[p]);
+  };
+#pragma GCC ivdep
+  for (std::size_t i = 1; i < nx - 1; ++i) {
+    const auto term = [&](const float* faces, std::size_t face, double value)
+                          ESPDIFF_INLINE_LAMBDA { return static_cast<double>(faces[face]) * value; };
+    const double along_x = term(of.ex, i, whole(i + 1)) + term(of.ex, i - 1, whole(i - 1));
+    const double along_y = term(of.ey, i, whole(i + nx)) + term(of.ey_before, i, whole(i - nx));
+    const double along_z = term(of.ez, i, whole(i + plane)) + term(of.ez_below, i, whole(i - plane));
+    const double own = static_cast<double>(r[i]) - static_cast<double>(of.diagonal[i]) * whole(i);
+    r[i] = static_cast<float>(own + (along_x + along_y + along_z));
+  }
+}
+ESPDIFF_MULTIVERSION void subtract_row_of_one(const OperatorRow& a, std::size_t nx, std::size_t plane, const float* x,
+                                              float* r) {
+  subtract_row<false>(a, nx, plane, x, nullptr, r);
+}
+ESPDIFF_MULTIVERSION void subtract_row_of_two(const OperatorRow& a, std::size_t nx, std::size_t plane, const float* x,
+                                              const float* low, float* r) {
+  subtract_row<true>(a, nx, plane, x, low, r);
+}
+
+/// Calls of_row(coefficients, first point, parity of the first point) for the inner rows of plane k.
+template <typename OfRow>
+void for_rows(OperatorRows& a, const GridSize& size, int k, const OfRow& of_row) {
+  a.hold(k);
+  for (int j = 1; j < size.ny - 1; ++j) of_row(a.at(j, k), size.row() * static_cast<std::size_t>(j), j + k);
+}
+
+}  // namespace
+
+void start_plane(OperatorRows& a, const GridSize& size, int k, const float* b, float* x) {
+  for_rows(a, size, k, [&](const OperatorRow& row, std::size_t first, int parity) {
+    start_row(row.diagonal, size.row(), parity, b + first, x + first);
+  });
+}
+void sweep_plane(OperatorRows& a, const GridSize& size, int k, int colour, const float* b, const Planes& x,
+                 float* out) {
+  for_rows(a, size, k, [&](const OperatorRow& row, std::size_t first, int parity) {
+    sweep_row(row, size.row(), parity, colour, b + first, x.row(first), out + first);
+  });
+}
+void residual_plane(OperatorRows& a, const GridSize& size, int k, const Planes& x, float* r) {
+  for_rows(a, size, k, [&](const OperatorRow& row, std::size_t first, int parity) {
+    residual_row(row, size.row(), parity, x.row(first), r + first);
+  });
+}
+void apply_plane(OperatorRows& a, const GridSize& size, int k, const Planes& x, float* y) {
+  for_rows(a, size, k, [&](const OperatorRow& row, std::size_t first, int) {
+    apply_row(row, size.row(), x.row(first), y + first);
+  });
+}
+
+void subtract_exactly_plane(OperatorRows& a, const GridSize& size, int k, const float* x, const float* low, float* r) {
+  for_rows(a, size, k, [&](const OperatorRow& row, std::size_t first, int) {
+    if (low == nullptr)
+      subtract_row_of_one(row, size.row(), size.plane(), x + first, r + first);
+    else
+      subtract_row_of_two(row, size.row(), size.plane(), x + first, low + first, r + first);
+  });
+}
+
+ESPDIFF_MULTIVERSION void restrict_plane(const GridSize& fine, const Planes& r, const GridSize& coarse, float* line,
+                                         float* b) {
+  const std::size_t row = fine.row();
+  const int nx = fine.nx;
+  for (int j = 1; j < coarse.ny - 1; ++j) {
+    const float* const low = r.below + row * static_cast<std::size_t>(2 * j);
+    const float* const mid = r.here + row * static_cast<std::size_t>(2 * j);
+    const float* const high = r.above + row * static_cast<std::size_t>(2 * j);
+#pragma GCC ivdep
+    for (int i = 0; i < nx; ++i) line[i] = across_weighted(low + i, mid + i, high + i, row);
+    float* const out = b + coarse.row() * static_cast<std::size_t>(j);
+#pragma GCC ivdep
+    for (int i = 1; i < coarse.nx - 1; ++i) out[i] = along_weighted(line[2 * i - 1], line[2 * i], line[2 * i + 1]);
+  }
+}
+
+ESPDIFF_MULTIVERSION void interpolate_plane(const GridSize& coarse, const float* below, const float* above,
+                                            const GridSize& fine, const float* x, float* line, float* out) {
+  const std::size_t row = coarse.row();
+  for (int j = 1; j < fine.ny - 1; ++j) {
+    const float* const a = below + row * static_cast<std::size_t>(j / 2);
+    const float* const b = below + row * static_cast<std::size_t>((j + 1) / 2);
+    const float* const c = above + row * static_cast<std::size_t>(j / 2);
+    const float* const d = above + row * static_cast<std::size_t>((j + 1) / 2);
+#pragma GCC ivdep
+    for (int i = 0; i < coarse.nx; ++i) line[i] = (a[i] + b[i]) + (c[i] + d[i]);
+    const float* const from = x + fine.row() * static_cast<std::size_t>(j);
+    float* const to = out + fine.row() * static_cast<std::size_t>(j);
+    to[1] = from[1] + 0.125F * (line[0] + line[1]);
+    const int pairs = (fine.nx - 3) / 2;  // of an even and an odd point
+#pragma GCC ivdep
+    for (int i = 1; i <= pairs; ++i) {
+      to[2 * i] = from[2 * i] + 0.125F * (line[i] + line[i]);
+      to[2 * i + 1] = from[2 * i + 1] + 0.125F * (line[i] + line[i + 1]);
+    }
+    const int last = fine.nx - 2;
+    if (last % 2 == 0 && last > 1) to[last] = from[last] + 0.125F * (line[last / 2] + line[last / 2]);
+  }
+}
+
+ESPDIFF_MULTIVERSION void turn_plane(float beta, const float* z, const float* from, std::size_t n, float* p) {
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n; ++i) p[i] = z[i] + beta * from[i];
+}
+
+ESPDIFF_MULTIVERSION double dot_run(const float* a, const float* b, std::size_t n) {
+  LaneSums sums;
+  std::size_t i = 0;
+  for (; i + LaneSums::kLanes <= n; i += LaneSums::kLanes) {
+    for (std::size_t lane = 0; lane < LaneSums::kLanes; ++lane)
+      sums.sum[lane] += static_cast<double>(a[i + lane]) * static_cast<double>(b[i + lane]);
+  }
+  for (std::size_t lane = 0; i < n; ++i, ++lane)
+    sums.sum[lane] += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  return sums.total();
+}
+
+ESPDIFF_MULTIVERSION void advance_run(float alpha, const float* p, const float* q, std::size_t n, float* x, float* r) {
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n; ++i) {
+    x[i] += alpha * p[i];
+    r[i] -= alpha * q[i];
+  }
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND
