@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
 set(library espdiff_system espdiff_base espdiff_io espdiff_align espdiff_engine_cpu espdiff_engine espdiff_causes espdiff_prepare
-  espdiff_field espdiff_options espdiff_motions espdiff_mapping espdiff_certificate espdiff_input_checks espdiff_compare espdiff_potential espdiff_report espdiff_plot espdiff_page espdiff_export)
+  espdiff_field espdiff_options espdiff_motions espdiff_mapping espdiff_certificate espdiff_input_checks espdiff_compare espdiff_potential espdiff_report espdiff_plot espdiff_scene espdiff_page espdiff_export)
 if(ESPDIFF_CUDA_ENABLED)
   list(APPEND library espdiff_engine_cuda espdiff_cuda_thrust)
 endif()

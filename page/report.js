@@ -7,11 +7,18 @@
   const arrays = await Page.unpack();
   const n = record.n_vertices;
   const target = decode(record.positions.target), source = record.positions.source ? decode(record.positions.source) : target;
-  const triangles = Page.decodeTriangles(record.triangles), residueOf = new Int32Array(arrays, record.residue.offset, n);
+  const triangles = Page.decodeTriangles(record.triangles), cover = coverOf(record.cover), residueOf = new Int32Array(arrays, record.residue.offset, n);
   const patchOf = record.patch ? new Int32Array(arrays, record.patch.offset, n) : null;  // 0: in none
   const values = Page.decodeAll(record.quantities), fade = record.fade;
   const doubt = fade ? values[record.quantities.findIndex((q) => q.name === fade.name)] : undefined;  // of the values, at each vertex
   byId('waiting').remove();
+
+  // [vertex] shares of matched and of trusted surroundings; what is marked lies below 0.5.
+  function coverOf({ matched, trusted }) {
+    const shares = new Float32Array(2 * n).fill(1);
+    [matched, trusted].forEach((part, k) => { if (part) decode(part).forEach((share, v) => { shares[2 * v + k] = share; }); });
+    return shares;
+  }
 
   // ---- texts ----------------------------------------------------------------------------------------------------
 
@@ -40,6 +47,9 @@
     return scale[Math.max(0, Math.min(scale.length - 1, Math.round(t * (scale.length - 1))))];
   }
 
+  // Whether a place of the source is compared with its place on the target.
+  const compares = (quantity) => quantity.name !== 'slip' && !/_(source|target)$/.test(quantity.name);
+
   // The scale by name; magnitudes have one of their own.
   function scaleOf(quantity) { return record.scales[quantity.signed ? byId('colours').value : 'magnitude']; }
 
@@ -47,10 +57,11 @@
     const quantity = record.quantities[index], scale = scaleOf(quantity), colours = mesh.colours, column = values[index];
     for (let v = 0; v < n; ++v) {
       const rgb = colourOf(quantity, column[v], range, scale);
-      const s = doubt && column !== doubt && byId('fade').checked ? Math.max(0, Math.min(1, (doubt[v] - fade.from) / (fade.to - fade.from))) * 0.75 : 0;
+      const s = doubt && column !== doubt && doubt[v] >= 0 && byId('fade').checked ? Math.max(0, Math.min(1, (doubt[v] - fade.from) / (fade.to - fade.from))) * 0.75 : 0;
       for (let k = 0; k < 3; ++k) colours[3 * v + k] = ((1 - s) * rgb[k] + s * 190) / 255;
     }
     mesh.geometry.attributes.color.needsUpdate = true;
+    mesh.marks.value = compares(quantity) ? 1 : 0;
   }
 
   // ---- scene ----------------------------------------------------------------------------------------------------
@@ -68,21 +79,37 @@
   bounds.getCenter(centre);
   const radius = bounds.getSize(corner).length() / 2;
 
-  // A surface between source (0) and target (1), with its unmatched part and the outline of the picked residue.
+  // As the shaders of pictures: grey where the place is not trusted, stripes without a counterpart, open inside tears.
+  function marked(material, mesh) {
+    const grey = 'vec3(' + record.no_value.map((c) => (c / 255).toFixed(4)).join(', ') + ')';
+    const after = (text, name, more) => text.replace('#include <' + name + '>', '#include <' + name + '>\n' + more);
+    material.extensions = { derivatives: true };
+    material.onBeforeCompile = (shader) => {
+      shader.uniforms.marks = mesh.marks;
+      shader.uniforms.pitch = { value: 7 * renderer.getPixelRatio() };
+      shader.vertexShader = after(after(shader.vertexShader, 'common', 'attribute vec2 cover; varying vec2 vCover;'), 'begin_vertex', 'vCover = cover;');
+      shader.fragmentShader = after(after(shader.fragmentShader, 'common', 'varying vec2 vCover; uniform float marks, pitch;'), 'color_fragment', `
+        if (vCover.x < -0.4) discard;
+        vec2 inside = clamp((vCover - 0.5) / max(fwidth(vCover), 1e-6) + 0.5, 0.0, 1.0);
+        vec3 stripes = mod(gl_FragCoord.x - gl_FragCoord.y, pitch) < 0.4 * pitch ? ${grey} : vec3(0.93);
+        diffuseColor.rgb = mix(diffuseColor.rgb, ${grey}, (1.0 - inside.y) * marks);
+        diffuseColor.rgb = mix(stripes, diffuseColor.rgb, inside.x);`);
+    };
+    return material;
+  }
+
+  // A surface between source (0) and target (1), with the outline of the picked residue.
   function makeMesh(morph) {
     const mesh = { geometry: new THREE.BufferGeometry(), colours: new Float32Array(3 * n), scene: new THREE.Scene() };
     mesh.geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * n), 3));
     mesh.geometry.setAttribute('color', new THREE.BufferAttribute(mesh.colours, 3));
+    mesh.geometry.setAttribute('cover', new THREE.BufferAttribute(cover, 2));
     mesh.geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
     mesh.geometry.computeVertexNormals();
-    const matched = new THREE.BufferGeometry(), rest = new THREE.BufferGeometry();
-    for (const part of [matched, rest]) part.attributes = mesh.geometry.attributes;
-    matched.setIndex(new THREE.BufferAttribute(triangles.subarray(0, 3 * record.triangles.n_counted), 1));
-    rest.setIndex(new THREE.BufferAttribute(triangles.slice(3 * record.triangles.n_counted), 1));
+    mesh.marks = { value: 1 };
     const side = THREE.DoubleSide, vertexColors = THREE.VertexColors || true;
-    mesh.surface = new THREE.Mesh(matched, new THREE.MeshLambertMaterial({ vertexColors, side }));
+    mesh.surface = new THREE.Mesh(mesh.geometry, marked(new THREE.MeshLambertMaterial({ vertexColors, side }), mesh));
     mesh.scene.add(mesh.surface);
-    mesh.scene.add(new THREE.Mesh(rest, new THREE.MeshLambertMaterial({ color: 0x9a9a9a, side, transparent: true, opacity: 0.5 })));
     mesh.outline = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0x000000 }));
     mesh.scene.add(mesh.outline);
     mesh.scene.add(new THREE.HemisphereLight(0xffffff, 0xd0d0d0, 0.75));
@@ -92,7 +119,7 @@
     if (record.backbone) {
       mesh.ribbon = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshLambertMaterial({ color: 0xc98a1b, side }));
       // Only the nearest layer of the surface shows: its depth is drawn first, after the ribbon.
-      mesh.depth = new THREE.Mesh(matched, new THREE.MeshBasicMaterial({ colorWrite: false, side, transparent: true }));
+      mesh.depth = new THREE.Mesh(mesh.geometry, marked(new THREE.MeshBasicMaterial({ colorWrite: false, side, transparent: true }), mesh));
       mesh.depth.renderOrder = 1;
       mesh.surface.renderOrder = 2;
       mesh.scene.add(mesh.ribbon, mesh.depth);
@@ -108,7 +135,7 @@
     mesh.morph = morph;
     showMolecule(mesh);
     mesh.geometry.computeVertexNormals();
-    mesh.surface.geometry.computeBoundingSphere();
+    mesh.geometry.computeBoundingSphere();
     outline(mesh);
   }
 
@@ -164,6 +191,7 @@
     byId('unit').textContent = quantity.unit;
     byId('low').textContent = shown(quantity.signed ? -range : 0);
     byId('high').textContent = shown(range) + ' ' + quantity.unit;
+    byId('untrusted').hidden = !record.cover.trusted || !compares(quantity);
     const context = byId('scale').getContext('2d');
     for (let x = 0; x < 256; ++x) {
       context.fillStyle = 'rgb(' + scale[Math.floor(x * scale.length / 256)].join(',') + ')';
@@ -285,6 +313,8 @@
   record.residues.columns.forEach((c, i) => { add(byId('column'), 'option', c.label).value = i; });
   byId('quantity').onchange = byId('colours').onchange = byId('fade').onchange = repaint;
   const has = (name) => record.quantities.some((q) => q.name === name);
+  byId('unmatched').hidden = !record.cover.matched;
+  for (const [id, part] of [['unmatched', record.cover.matched], ['untrusted', record.cover.trusted]]) byId(id).lastChild.textContent = part ? part.text : '';
   byId('links').hidden = !record.linked || !record.linked.every(([name]) => has(name));
   byId('link-text').textContent = (record.linked || []).map(([, label]) => label).join(', ');
   byId('fades').hidden = !doubt;

@@ -29,13 +29,19 @@ const Page = (() => {
 
   const shown = (value) => (value === null || !isFinite(value) ? '-' : Number(value.toPrecision(4)).toString());
 
-  async function unpack() {
-    const text = atob(byId('arrays').textContent.trim());
+  async function bytesOf(element) {
+    const text = atob(element.textContent.trim());
     const bytes = new Uint8Array(text.length);
     for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-    if (!record.deflated) return arrays = bytes.buffer;
+    if (!record.deflated) return bytes.buffer;
     const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
-    return arrays = await new Response(stream).arrayBuffer();
+    return new Response(stream).arrayBuffer();
+  }
+
+  // The arrays; before them three.js, where the page has it, which runs as soon as it is an element of the page.
+  async function unpack() {
+    if (byId('library')) add(document.head, 'script', new TextDecoder().decode(await bytesOf(byId('library'))));
+    return arrays = await bytesOf(byId('arrays'));
   }
 
   // Single precision, or steps between minimum and maximum, each as its difference from the one before: all low bytes, then

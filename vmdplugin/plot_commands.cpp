@@ -78,7 +78,7 @@ Tcl_Obj* read_residue_map(const Call& call) {
     }
     rows.push_back(to_list(values));
   }
-  const auto [low, high] = colour_range(map);
+  const auto [low, high] = drawn_range(map);
   return to_dict({{"title", to_obj(map.title)},
                   {"unit", to_obj(map.unit)},
                   {"frames", to_list(frames)},

@@ -28,11 +28,12 @@ else:
     from ._inputs import state
     from ._functions import (
         Series, compare, frames, help_options, matrix, merge, potential, prepare, status, surface)
+    from ._reports import report
     from ._results import Certificate, Comparison, Matrix
     from ._saved import load
 
 __all__ = [
     "Certificate", "Comparison", "Ensemble", "Map", "Matrix", "Series", "State", "Surface", "__version__", "compare",
-    "ensemble", "frames", "help_options", "load", "matrix", "merge", "potential", "prepare", "state", "status", "surface",
+    "ensemble", "frames", "help_options", "load", "matrix", "merge", "potential", "prepare", "report", "state", "status", "surface",
 ]
 __all__ += _errors.__all__

@@ -31,6 +31,14 @@ def path(name, value):
     return os.fspath(value)
 
 
+def prefix(name, value):
+    """Of files: a name, perhaps in a folder, and not the folder alone."""
+    value = path(name, value)
+    if not os.path.basename(value):
+        raise InputError(f"{name}: {value!r} names no file; give a name, such as {os.path.join(value, 'result')!r}")
+    return value
+
+
 def switch(name, value):
     if value not in (True, False):
         raise InputError(f"{name}: {value!r} is not True or False")

@@ -14,6 +14,7 @@ import numpy as np
 from . import _checks, _core
 from ._functions import _as_settings, _Progress
 from ._inputs import frame_state, is_atomgroup
+from ._reports import written
 from ._results import EngineResult, frame_of, table_of
 from ._signatures import study_defaults, study_texts, takes_options
 
@@ -114,9 +115,10 @@ def _refuse_mixed(group, members):
 class Ensemble(EngineResult):
     """The result of ensemble(). Arrays are NumPy's, read-only views of the engine's (see `espdiff._core.Ensemble`)."""
 
-    def __init__(self, core, folder=None):
+    def __init__(self, core, prefix, folder=None):
         super().__init__(core)
-        self._folder = folder  # of the mapped frames, where the user named none
+        self._prefix = prefix  # of its files
+        self._folder = folder  # which holds them where the user named none
 
     def __repr__(self):
         return f"<espdiff.Ensemble of {' and '.join(self.means)}, {self.n_frames} frames>"
@@ -124,7 +126,7 @@ class Ensemble(EngineResult):
     @property
     def fields(self):
         """The fields besides the potential, {name: Ensemble}; their family-wise p are over all their surfaces together."""
-        return {name: Ensemble(core, self._folder) for name, core in self._core.fields.items()}
+        return {name: Ensemble(core, f"{self._prefix}.{name}", self._folder) for name, core in self._core.fields.items()}
 
     @property
     def fixed_patches(self):
@@ -154,6 +156,13 @@ class Ensemble(EngineResult):
         from ._html import ensemble
 
         return ensemble(self)
+
+    def report(self, path=None, *, title: str = ""):
+        """One page for any browser, without network: the template's surface, patches, replicates, the conclusion.
+
+        Writes it to `path` and returns that; returns the page's text without one. It is made of the result's files.
+        """
+        return written(_core.report_page(self._prefix, _checks.text("title", title)), path)
 
     def plot(self, ax=None, top=None):
         """Draws each residue's difference with its interval (Matplotlib); returns the axes. Filled: significant."""
@@ -231,7 +240,7 @@ def ensemble(groups=None, *, output=None, potential: str = "auto", device: str =
     if groups is None and not order.get("from_file"):
         raise _core.InputError('groups: none is given; name one or two, {"wild": ["w1.pdb", ...], "mutant": [...]}')
     folder = tempfile.TemporaryDirectory(prefix="espdiff-") if output is None else None
-    made = _order(os.path.join(folder.name, "ensemble") if folder else os.fspath(output), order)
+    made = _order(os.path.join(folder.name, "ensemble") if folder else _checks.prefix("output", output), order)
     universes = {atoms.universe for name, members in (groups.items() if isinstance(groups, dict) else ())
                  for _, atoms in _members(name, members) if is_atomgroup(atoms)}
     before = [(universe.trajectory, universe.trajectory.frame) for universe in universes]
@@ -250,7 +259,7 @@ def ensemble(groups=None, *, output=None, potential: str = "auto", device: str =
         return None
     for text in core.design_warnings:
         warnings.warn(text, stacklevel=3)
-    return Ensemble(core, folder)
+    return Ensemble(core, made["output"], folder)
 
 
 def _part(task):

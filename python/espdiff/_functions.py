@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _checks, _core
 from ._inputs import refuse_the_same_atoms, state_of, with_values
+from ._reports import table_beside
 from ._results import Comparison, Matrix
 from ._signatures import PREPARATION_GROUPS, as_text, option_rows, study_defaults, study_texts, takes_options
 
@@ -220,10 +221,10 @@ def matrix(states, labels=None, *, groups=None, potential: str = "auto", pme_cel
     options, arrays = _array_fields(options, len(states))
     given = _with_arrays([state_of(state, role) for state, role in zip(states, roles)], states, arrays, roles)
     with _Progress(progress, "matrix") as listener, tempfile.TemporaryDirectory(prefix="espdiff-") as scratch:
-        prefix = _checks.path("output", output) if output is not None else os.path.join(scratch, "matrix")
+        prefix = _checks.prefix("output", output) if output is not None else os.path.join(scratch, "matrix")
         text = _core.matrix(given, list(labels), list(groups or []), _as_settings(options), potential, pme_cell, device,
                             threads, prefix, study_texts("matrix", own), listener)
-    return Matrix(text) if text else None
+        return Matrix(text, table_beside(prefix)) if text else None
 
 
 def merge(parts, output, *, overwrite: bool = False):
@@ -233,13 +234,13 @@ def merge(parts, output, *, overwrite: bool = False):
     or OUT.shard-*.h5 of an ensemble, whose OUT.h5 and results are. Returns the Matrix or Ensemble.
     """
     parts = [_checks.path("parts", part) for part in _checks.several("parts", parts, "paths")]
-    output, overwrite = _checks.path("output", output), _checks.switch("overwrite", overwrite)
+    output, overwrite = _checks.prefix("output", output), _checks.switch("overwrite", overwrite)
     if parts and all(part.endswith(".h5") for part in parts) and not _core.is_template_matrix(parts):
         from ._ensembles import ensemble
 
         _core.merge_ensemble(parts, output, overwrite, None)
         return ensemble(from_file=output + ".h5", output=output)
-    return Matrix(_core.merge_matrix(parts, output, overwrite, None))
+    return Matrix(_core.merge_matrix(parts, output, overwrite, None), table_beside(output))
 
 
 class Series:

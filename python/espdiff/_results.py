@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _checks
 from ._core import InputError, report_page
+from ._reports import page_of_files, written
 
 
 class Certificate:
@@ -223,7 +224,7 @@ class Comparison(EngineResult):
 
     def save(self, prefix) -> typing.List[str]:
         """Writes PREFIX.json, PREFIX.vtp and PREFIX.residues.csv as the command line does; returns their names."""
-        return self._core.save(_checks.path("prefix", prefix))
+        return self._core.save(_checks.prefix("prefix", prefix))
 
     def report(self, path=None, *, title: str = ""):
         """One page for any browser, without network: the surface to be turned, residues, numbers, verdict, provenance.
@@ -235,12 +236,7 @@ class Comparison(EngineResult):
             prefix = os.path.join(folder, "result")
             self.save(prefix)
             page = report_page(prefix, title)
-        if path is None:
-            return page
-        path = _checks.path("path", path)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(page)
-        return path
+        return written(page, path)
 
     def plot(self, quantity="mean_abs_difference", ax=None, top=None):
         """Draws a quantity by residue (Matplotlib); returns the axes. top: only the residues with the largest values."""
@@ -265,8 +261,9 @@ class Comparison(EngineResult):
 class Matrix:
     """The result of matrix(): `labels`, and a table [source, target] for each metric."""
 
-    def __init__(self, text):
+    def __init__(self, text, table=None):
         self._json = json.loads(text)
+        self._files = {".json": text, ".csv": table}  # None without OUT.csv
 
     @property
     def labels(self) -> typing.List[str]:
@@ -309,6 +306,15 @@ class Matrix:
             values = self[name]
             columns[name] = [values[pair] for pair in pairs]
         return frame_of({**columns, "trustworthy": [bool(trusted[pair]) for pair in pairs]})
+
+    def report(self, path=None, *, title: str = ""):
+        """One page for any browser, without network: a map of each metric, and all numbers of the pair that is selected.
+
+        Writes it to `path` and returns that; returns the page's text without one.
+        """
+        if self._files[".csv"] is None:
+            raise InputError("report: the page needs OUT.csv, which was not beside this matrix' OUT.json when it was read")
+        return page_of_files(self._files, "matrix", path, title or f"{len(self.labels)} states")
 
     def __repr__(self):
         return f"<espdiff.Matrix of {len(self.labels)} states>"

@@ -9,6 +9,7 @@ import tempfile
 import numpy as np
 
 from . import _checks, _core
+from ._reports import table_beside
 from ._results import Comparison, Matrix, verdict_of
 
 FORMATS = {"comparison": "espdiff comparison", "matrix": "espdiff matrix", "ensemble": "espdiff ensemble"}
@@ -233,7 +234,7 @@ def load(path):
         raise _core.FormatError(f"{prefix}.json: no JSON: {error}") from None
     kind = _kind_of(prefix + ".json", record)
     if kind == FORMATS["matrix"]:
-        return Matrix(content)
+        return Matrix(content, table_beside(prefix))
     if kind == FORMATS["ensemble"]:
         return _load_ensemble(prefix + ".h5", record)
     files = {".json": content, **{ending: _read(prefix + ending) for ending in _ENDINGS[1:]}}

@@ -12,6 +12,7 @@
 #include "ensemble.h"
 #include "errors.h"
 #include "frames.h"
+#include "io/files/atomic_file.h"
 #include "io/vtk/read_vtp.h"
 #include "matrix.h"
 #include "options/options.h"
@@ -178,11 +179,20 @@ NB_MODULE(_core, module) {
              "n colours (red, green, blue; 0 to 255) from the lowest value to the highest, as pictures have them.");
   module.def(
       "report_page",
-      [](const std::string& prefix, const std::string& title) {
+      [](const std::string& prefix, const std::string& title, const std::vector<std::string>& range_of) {
         const nb::gil_scoped_release unlocked;
-        return espdiff::result_page(prefix, title);
+        return espdiff::result_page(prefix, title, range_of);
       },
-      nb::arg("prefix"), nb::arg("title"), "The files of a result as one page for any browser.");
+      nb::arg("prefix"), nb::arg("title"), nb::arg("range_of") = std::vector<std::string>(),
+      "The files of a result as one page for any browser.");
+  module.def(
+      "write_page",
+      [](const std::string& path, const std::string& page) {
+        espdiff::AtomicFile file(path);
+        file.stream() << page;
+        file.commit();
+      },
+      nb::arg("path"), nb::arg("page"), "Writes a page, whole or not at all. Raises IoError.");
   module.def("read_surface", &read_surface, nb::arg("path"),
              "What a VTP file holds: positions, triangles, points, cells, texts. Raises IoError, FormatError.");
   module.def("metrics", &list_metrics, "Every number of a comparison: name, label, unit, help.");

@@ -12,6 +12,7 @@
 
 #include "arrays.h"
 #include "base/error.h"
+#include "base/formatted.h"
 #include "field/given_values.h"
 #include "io/files/atomic_file.h"
 #include "io/files/sha256.h"
@@ -67,6 +68,37 @@ std::optional<UnitCell> read_cell(const std::optional<AnyArray>& numbers) {
   return UnitCell{{d(0), d(1), d(2)}, {d(3), d(4), d(5)}};
 }
 
+/// What the binding's own error would put in its words.
+template <typename T>
+T taken(nb::handle given, const char* name, const char* wanted) {
+  try {
+    return nb::cast<T>(given);
+  } catch (const std::bad_cast&) {
+    throw InputError(std::string(name) + ": a " + nb::cast<std::string>(given.type().attr("__name__")) + " is no " +
+                     wanted);
+  }
+}
+
+std::optional<AnyArray> taken_array(nb::handle given, const char* name) {
+  if (given.is_none()) return std::nullopt;
+  return taken<AnyArray>(given, name, "array of numbers; give numpy.asarray(..., dtype=float)");
+}
+
+std::vector<std::string> taken_texts(nb::handle given, const char* name) {
+  return taken<std::vector<std::string>>(given, name, "list of texts, one for each atom");
+}
+
+/// Numbers of atoms within the limits that readers of files have.
+void check_limits(const std::vector<float>& values, const std::string& name, double least, double most,
+                  const char* unit) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double value = static_cast<double>(values[i]);
+    if (value < least || value > most)
+      throw InputError(name + ": atom " + std::to_string(i) + " has " + formatted("%g", value) + " " + unit +
+                       "; between " + formatted("%g", least) + " and " + formatted("%g", most) + " is taken");
+  }
+}
+
 /// Names and residues as a structure file would have them.
 struct Labels {
   std::vector<std::string> names, elements, residue_names, chains, insertion_codes;
@@ -109,8 +141,12 @@ StatePtr from_arrays(const AnyArray& positions, const std::optional<AnyArray>& r
     for (std::size_t i = 0; i < n; ++i) {
       if (state->molecule.radii[i] < 0) throw InputError("radii: atom " + std::to_string(i) + " has a negative radius");
     }
+    check_limits(state->molecule.radii, "radii", 0, kLargestRadius_A, "A");
   }
-  if (charges) state->molecule.charges = read_numbers(*charges, "charges", n);
+  if (charges) {
+    state->molecule.charges = read_numbers(*charges, "charges", n);
+    check_limits(state->molecule.charges, "charges", -kLargestCharge, kLargestCharge, "e");
+  }
   state->cell = read_cell(cell);
   note_input(*state);
   return state;
@@ -236,21 +272,25 @@ void add_state(nb::module_& module) {
                   "Raises IoError, FormatError, InputError.")
       .def_static(
           "from_arrays",
-          [](const AnyArray& positions, const std::optional<AnyArray>& radii, const std::optional<AnyArray>& charges,
-             const std::optional<AnyArray>& rows, std::vector<std::string> names, std::vector<std::string> elements,
-             std::vector<std::string> residue_names, std::vector<int> residue_numbers, std::vector<std::string> chains,
-             std::vector<std::string> insertion_codes, const std::optional<AnyArray>& cell, const std::string& name) {
-            return from_arrays(positions, rows, radii, charges,
-                               {std::move(names), std::move(elements), std::move(residue_names), std::move(chains),
-                                std::move(insertion_codes), std::move(residue_numbers)},
-                               cell, name);
+          [](nb::object positions, nb::object radii, nb::object charges, nb::object rows, nb::object names,
+             nb::object elements, nb::object residue_names, nb::object residue_numbers, nb::object chains,
+             nb::object insertion_codes, nb::object cell, nb::object name) {
+            const std::optional<AnyArray> places = taken_array(positions, "positions");
+            if (!places) throw InputError("positions: none are given");
+            return from_arrays(*places, taken_array(rows, "rows"), taken_array(radii, "radii"),
+                               taken_array(charges, "charges"),
+                               {taken_texts(names, "names"), taken_texts(elements, "elements"),
+                                taken_texts(residue_names, "residue_names"), taken_texts(chains, "chains"),
+                                taken_texts(insertion_codes, "insertion_codes"),
+                                taken<std::vector<int>>(residue_numbers, "residue_numbers",
+                                                        "list of whole numbers, one for each atom")},
+                               taken_array(cell, "cell"), taken<std::string>(name, "name", "text"));
           },
-          nb::arg("positions"), nb::arg("radii").none() = nb::none(), nb::arg("charges").none() = nb::none(),
-          nb::kw_only(), nb::arg("rows").none() = nb::none(), nb::arg("names") = std::vector<std::string>(),
-          nb::arg("elements") = std::vector<std::string>(), nb::arg("residue_names") = std::vector<std::string>(),
-          nb::arg("residue_numbers") = std::vector<int>(), nb::arg("chains") = std::vector<std::string>(),
-          nb::arg("insertion_codes") = std::vector<std::string>(), nb::arg("cell").none() = nb::none(),
-          nb::arg("name") = "arrays",
+          nb::arg("positions").none(), nb::arg("radii").none() = nb::none(), nb::arg("charges").none() = nb::none(),
+          nb::kw_only(), nb::arg("rows").none() = nb::none(), nb::arg("names") = nb::list(),
+          nb::arg("elements") = nb::list(), nb::arg("residue_names") = nb::list(),
+          nb::arg("residue_numbers") = nb::list(), nb::arg("chains") = nb::list(),
+          nb::arg("insertion_codes") = nb::list(), nb::arg("cell").none() = nb::none(), nb::arg("name") = "arrays",
           "A state from arrays, which are copied once, in any floating-point type and order.\n\n"
           "positions: (n, 3), A; with rows, (m) integers, those rows of it, such as an AtomGroup's of its universe's. "
           "radii: (n), A; without, van der Waals radii by element. charges: (n), elementary "

@@ -170,6 +170,15 @@ void add_overwrite(CLI::App& parser, bool& overwrite) {
   parser.add_flag("--overwrite", overwrite, "Replace files of these names, if there are any");
 }
 
+void add_range_of(CLI::App& parser, std::vector<std::string>& others) {
+  parser
+      .add_option("--range-of", others,
+                  "One scale for a study: the widest automatic range of this result and of these, each by its prefix "
+                  "or one of its files")
+      ->delimiter(',')
+      ->type_name("RESULT,...");
+}
+
 GridFile read_map(const std::string& path, const std::string& array, const std::string& unit) {
   GridOptions options;
   options.array = array;

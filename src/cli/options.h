@@ -101,6 +101,11 @@ void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, boo
 /// --overwrite, of a verb whose outputs are the files that its options name.
 void add_overwrite(CLI::App& parser, bool& overwrite);
 
+/// --range-of, of a verb that draws: other results, whose automatic range counts too.
+void add_range_of(CLI::App& parser, std::vector<std::string>& others);
+/// Behind both --range and --range-of.
+inline constexpr const char* kTwoRanges = "--range-of and --range exclude each other: one of them sets the scale";
+
 /// Reads a potential map and, unless `unit` is empty, declares its unit.
 GridFile read_map(const std::string& path, const std::string& array, const std::string& unit);
 

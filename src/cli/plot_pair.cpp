@@ -1,4 +1,4 @@
-// plot_pair.cpp: finds a comparison's table of residues, and takes both states' values from it.
+// plot_pair.cpp: finds a comparison's tables of residues and causes, and takes what is drawn from them.
 #include "cli/plot_pair.h"
 
 #include <algorithm>
@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "cli/output_prefix.h"
+#include "io/text/text_cursor.h"
 
 namespace espdiff::cli {
 namespace {
@@ -46,6 +48,7 @@ bool is_ensemble_table(const CsvTable& table) {
 StatePlot state_plot(const CsvTable& table, bool bars, std::size_t top, const std::string& title,
                      const std::string& field) {
   StatePlot plot;
+  plot.has_bars = bars;
   std::size_t source = 0, target = 0, difference = 0;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const std::string& name = table.columns[c];
@@ -82,6 +85,7 @@ StatePlot group_plot(const CsvTable& table, bool bars, std::size_t top, const st
   const std::string mean = "mean_";
   const std::size_t source = 2, target = 3, difference = table.require("difference");
   StatePlot plot;
+  plot.has_bars = bars;
   plot.source = table.columns[source].substr(mean.size());
   plot.target = table.columns[target].substr(mean.size());
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -112,6 +116,77 @@ std::string file_to_plot(const std::string& given) {
     if (exists(prefix + ".csv")) return prefix + ".csv";
   }
   return given;
+}
+
+bool is_matrix_table(const CsvTable& table) { return table.find("source") >= 0 && table.find("target") >= 0; }
+
+std::string matrix_json_of(const std::string& csv) {
+  return std::filesystem::path(csv).replace_extension(".json").string();
+}
+
+PlotInput plot_input(const std::string& given) {
+  PlotInput input{file_to_plot(given), false, {}};
+  const auto is_json = [](const std::string& path) {
+    return path.size() > 5 && lower_case(path).substr(path.size() - 5) == ".json";
+  };
+  if (!is_json(input.path)) {
+    input.table = read_csv(input.path);
+    std::error_code ignored;
+    if (is_matrix_table(input.table) && std::filesystem::is_regular_file(matrix_json_of(input.path), ignored))
+      input.path = matrix_json_of(input.path);
+  }
+  input.is_json = is_json(input.path);
+  return input;
+}
+
+bool is_cause_table(const CsvTable& table) { return table.find("reading") == 0 && table.find("poorly_known") > 0; }
+
+std::vector<CausePanel> cause_panels(const CsvTable& table) {
+  constexpr std::size_t kMostBars = 12;
+  std::size_t difference = 0;
+  std::string unit;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const std::string& name = table.columns[c];
+    const std::string start = "difference [";
+    if (name.compare(0, start.size(), start) != 0) continue;
+    difference = c;
+    unit = name.substr(start.size(), name.size() - start.size() - 1);
+  }
+  if (difference == 0) throw FormatError(table.path, 0, "there is no column 'difference [UNIT]'");
+  const std::size_t chain = table.require("chain"), number = table.require("residue_number"),
+                    name = table.require("residue_name"), kind = table.require("kind"),
+                    uncertain = table.require("poorly_known"), insertion = table.require("insertion_code");
+  std::vector<CausePanel> panels;
+  std::vector<double> sums;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const std::vector<std::string>& cells = table.rows[row];
+    if (panels.empty() || panels.back().title != cells[0]) {
+      panels.push_back({cells[0], unit, {}});
+      sums.push_back(0);
+    }
+    const double value = table.number(row, difference);
+    sums.back() += value;
+    if (panels.back().bars.size() == kMostBars) continue;
+    std::string words = cells[kind];
+    std::replace(words.begin(), words.end(), '_', ' ');
+    const std::string residue = cells[name] + (cells[number].empty() ? "" : " " + cells[number]) + cells[insertion] +
+                                (cells[chain].empty() ? "" : " " + cells[chain]);
+    panels.back().bars.push_back({residue + ", " + words, value, cells[uncertain] == "1"});
+  }
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    panels[i].title += ": " + formatted("%+.3g", sums[i]) + " " + unit + "; pale: place poorly known";
+  return panels;
+}
+
+std::string cause_table_of(const std::string& given) {
+  const std::string ending = ".causes.csv";
+  const bool is_table =
+      given.size() > ending.size() && given.compare(given.size() - ending.size(), ending.size(), ending) == 0;
+  const std::string path = is_table ? given : result_prefix(given) + ending;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw InputError(path + ": no such file; compare with --causes first, such as --causes whole");
+  return path;
 }
 
 }  // namespace espdiff::cli

@@ -58,10 +58,7 @@ void add_colour_options(CLI::App& p, SceneArguments& a) {
   add<Text>(p, a, "--range",
             "End of the colour scale, for signed values both ends, or LOW:HIGH; 0: by --percentile [0]", set_range)
       ->type_name("NUMBER");
-  p.add_option("--range-of", a.range_of,
-               "One scale for a study: the widest automatic range of this result and of these, by prefix or OUT.vtp")
-      ->delimiter(',')
-      ->type_name("RESULT,...");
+  add_range_of(p, a.range_of);
   add<Number>(p, a, "--potential-range", "End of the scale of both potentials in the layout linked; 0: automatic [0]",
               [](Scene& s, Number v) { s.potential_limit = v; });
   add<Number>(p, a, "--percentile", "Percentage of the values that an automatic scale covers, 50 to 100 [90]",
@@ -144,8 +141,7 @@ void add_layout_options(CLI::App& p, SceneArguments& a) {
 
 /// Sets the scene's ranges to the widest of all results, that of `surface` among them.
 void share_ranges(Scene& scene, const std::string& surface, const std::vector<std::string>& others) {
-  if (scene.range.given_ends || scene.range.limit > 0)
-    throw InputError("--range-of and --range exclude each other: one of them sets the scale");
+  if (scene.range.given_ends || scene.range.limit > 0) throw InputError(kTwoRanges);
   if (!scene.field.empty()) throw InputError("--range-of is a scale of potentials; give --range with --field");
   std::vector<std::string> surfaces = {surface};
   for (const std::string& other : others) surfaces.push_back(surface_of_result(other));

@@ -35,6 +35,13 @@ std::vector<MatrixPair> missing_pairs(const std::vector<MatrixPair>& pairs, cons
   return missing;
 }
 
+/// "a.state and 3 more files"
+std::string named(const std::vector<std::string>& paths) {
+  if (paths.size() == 1) return paths.front();
+  return paths.front() + " and " + std::to_string(paths.size() - 1) +
+         (paths.size() == 2 ? " more file" : " more files");
+}
+
 }  // namespace
 
 std::string in_words(double seconds) {
@@ -152,7 +159,7 @@ MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, co
     report.files = {path};
     return report;
   }
-  finish_matrix(run, assemble(plan, cells, "resume the run"), report);
+  finish_matrix(run, assemble(plan, cells, path, "resume the run"), report);
   std::error_code ignored;
   fs::remove(path, ignored);
   return report;
@@ -179,7 +186,9 @@ MatrixReport merge_matrix(const std::vector<std::string>& state_paths, const Mat
   check_results(run, run.overwrite, plan.compared());
   MatrixReport report;
   report.n_pairs = report.n_resumed = cells.size();
-  finish_matrix(run, assemble(plan, cells, "resume the shard that lacks them, or name its state file too"), report);
+  finish_matrix(
+      run, assemble(plan, cells, named(state_paths), "resume the shard that lacks them, or name its state file too"),
+      report);
   return report;
 }
 

@@ -31,7 +31,8 @@ double as_distance(const Metric& metric, double a, double b) {
 
 }  // namespace
 
-Matrix assemble(const MatrixPlan& plan, const std::vector<MatrixCell>& cells, const std::string& hint) {
+Matrix assemble(const MatrixPlan& plan, const std::vector<MatrixCell>& cells, const std::string& from,
+                const std::string& hint) {
   Matrix matrix{plan, {}, {}};
   const std::size_t n = matrix.n();
   std::vector<const MatrixCell*> found(n * (n - 1), nullptr);
@@ -42,14 +43,14 @@ Matrix assemble(const MatrixPlan& plan, const std::vector<MatrixCell>& cells, co
     const MatrixCell*& place =
         found[cell.source * (n - 1) + (cell.target < cell.source ? cell.target : cell.target - 1)];
     if (place != nullptr && !same_cell(*place, cell))
-      throw InputError("the pair " + name({cell.source, cell.target}) +
+      throw InputError(from + ": the pair " + name({cell.source, cell.target}) +
                        " is there twice, with different values; compute one part of the matrix anew");
     place = &cell;
   }
   const auto missing = static_cast<std::size_t>(std::count(found.begin(), found.end(), nullptr));
   if (missing > 0) {
     const auto first = static_cast<std::size_t>(std::find(found.begin(), found.end(), nullptr) - found.begin());
-    throw InputError(std::to_string(missing) + " of " + std::to_string(found.size()) +
+    throw InputError(from + ": " + std::to_string(missing) + " of " + std::to_string(found.size()) +
                      " pairs are missing, the first " + name(matrix_pairs(n)[first]) + "; " + hint);
   }
   for (const MatrixCell* cell : found) matrix.cells.push_back(*cell);

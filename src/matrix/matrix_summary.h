@@ -31,9 +31,11 @@ struct Matrix {
 };
 
 /// Puts cells in order. A pair may occur twice with equal values.
+/// @param from the file or files that have the cells, for the message
 /// @param hint the remedy for missing pairs, for the message
 /// @throws InputError (missing pairs: how many, and the first; a pair with two different cells)
-Matrix assemble(const MatrixPlan& plan, const std::vector<MatrixCell>& cells, const std::string& hint);
+Matrix assemble(const MatrixPlan& plan, const std::vector<MatrixCell>& cells, const std::string& from,
+                const std::string& hint);
 
 /// The mean of both directions' values as a distance, or the only value. For an antisymmetric metric the mean
 /// magnitude; for a similarity index s sqrt(2 - 2 s), which is 0 for equal potentials (for Hodgkin's index: Blomberg et

@@ -41,11 +41,18 @@ std::string embedded(const PageJson& json) {
 }  // namespace
 
 std::string assembled_page(nlohmann::ordered_json page, const PageArrays& arrays, const std::string& body,
-                           const std::vector<std::string>& scripts) {
+                           const std::vector<std::string>& scripts, const std::vector<std::string>& library) {
   const auto& files = page_texts();
   add_scales(page);
   page["deflated"] = PageArrays::is_deflated();
   std::string script_texts;
+  std::string library_text;
+  for (const std::string& name : library) library_text += files.at(name) + '\n';
+  if (!library.empty())
+    script_texts =
+        "<!-- three.js, copyright its authors, MIT licence -->\n<script type=\"application/octet-stream\" "
+        "id=\"library\">" +
+        PageArrays::packed(library_text) + "</script>\n";
   for (const std::string& name : scripts) script_texts += "<script>\n" + files.at(name) + "\n</script>\n";
   return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
          "content=\"width=device-width, initial-scale=1\">\n"

@@ -13,7 +13,8 @@ namespace espdiff {
 /// or script.
 /// @param body    the embedded file of markup
 /// @param scripts embedded files, in the order in which they run
+/// @param library embedded files of three.js, packed as the arrays are: Page.unpack() runs them
 std::string assembled_page(nlohmann::ordered_json page, const PageArrays& arrays, const std::string& body,
-                           const std::vector<std::string>& scripts);
+                           const std::vector<std::string>& scripts, const std::vector<std::string>& library = {});
 
 }  // namespace espdiff

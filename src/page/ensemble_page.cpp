@@ -97,13 +97,8 @@ void add_surface(EnsembleJson& page, PageArrays& arrays, const EnsembleFiles& fi
   const VtpContent& surface = files.surface;
   require_page_size(surface.triangles.size(), files.prefix);
   page["n_vertices"] = surface.positions.size();
-  page["positions"]["target"] = add_page_positions(arrays, surface.positions);
+  add_page_mesh(page, arrays, surface, surface.positions, {page_flags(surface, "untested"), {}, "not tested"});
   add_quantities(page, arrays, files);
-  const VtpNumbers* const untested = find_array(surface.cell_arrays, "untested");
-  std::vector<Triangle> counted, rest;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-    (untested != nullptr && untested->values[t] != 0 ? rest : counted).push_back(surface.triangles[t]);
-  add_page_triangles(page, arrays, counted, rest);
   page["residue"] = arrays.add_integers(page_integers(surface, "residue_index", files.prefix));
   if (!files.compares()) return;
   page["patch"] = arrays.add_integers(page_integers(surface, "patch", files.prefix));
@@ -179,7 +174,7 @@ std::string ensemble_page(const std::string& prefix, const std::string& title,
   try {
     EnsembleJson page = page_of(read_files(prefix), title, arrays);
     share_page_ranges(page, prefix, range_of);
-    return assembled_page(page, arrays, "report.html", surface_page_scripts());
+    return assembled_page(page, arrays, "report.html", surface_page_scripts(), surface_page_library());
   } catch (const EnsembleJson::exception&) {
     throw FormatError(prefix + ".json", 0,
                       "lacks what an ensemble's record has; compute its statistics again (ensemble, " +

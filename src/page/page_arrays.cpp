@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "io/files/base64.h"
 
 namespace espdiff {
@@ -58,6 +59,7 @@ std::size_t PageArrays::begin(std::size_t alignment) {
 }
 
 nlohmann::ordered_json PageArrays::add_numbers(const std::vector<double>& values, int n_steps, int stride) {
+  CancelRequest().check();
   double low = 0, high = 0;
   bool is_first = true;
   for (const double value : values) {
@@ -112,6 +114,11 @@ nlohmann::ordered_json PageArrays::add_integers(const std::vector<std::int32_t>&
   return {{"offset", offset}, {"n", values.size()}};
 }
 
-std::string PageArrays::base64() const { return base64_of(deflated(bytes_)); }
+std::string PageArrays::base64() const { return packed(bytes_); }
+
+std::string PageArrays::packed(const std::string& bytes) {
+  CancelRequest().check();
+  return base64_of(deflated(bytes));
+}
 
 }  // namespace espdiff

@@ -31,6 +31,7 @@ class PageArrays {
   const std::string& bytes() const { return bytes_; }
   /// All bytes as base64, deflated where this build has zlib.
   std::string base64() const;
+  static std::string packed(const std::string& bytes);
   static bool is_deflated();
 
  private:

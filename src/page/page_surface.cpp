@@ -1,6 +1,8 @@
 // page_surface.cpp: what pages with a surface share: its arrays, its limit, its scripts.
 #include "page/page_surface.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/molecule/surface_parts.h"
 #include "page/page_texts.h"
@@ -22,9 +24,9 @@ void require_page_size(std::size_t n_triangles, const std::string& prefix) {
                      std::to_string(kMaxPageTriangles) + ": compare with a larger " + option("grid-spacing"));
 }
 
-std::vector<std::string> surface_page_scripts() {
-  return {"three.min.js", "TrackballControls.js", "shared.js", "ribbon.js", "patches.js", "report.js"};
-}
+std::vector<std::string> surface_page_scripts() { return {"shared.js", "ribbon.js", "patches.js", "report.js"}; }
+
+std::vector<std::string> surface_page_library() { return {"three.min.js", "TrackballControls.js"}; }
 
 nlohmann::ordered_json add_page_positions(PageArrays& arrays, const std::vector<Vec3d>& positions) {
   std::vector<double> all;
@@ -68,12 +70,39 @@ void share_page_ranges(nlohmann::ordered_json& page, const std::string& prefix, 
   }
 }
 
-void add_page_triangles(nlohmann::ordered_json& page, PageArrays& arrays, const std::vector<Triangle>& counted,
-                        const std::vector<Triangle>& rest) {
-  std::vector<Triangle> all = counted;
-  all.insert(all.end(), rest.begin(), rest.end());
-  page["triangles"] = arrays.add_triangles(all);
-  page["triangles"]["n_counted"] = counted.size();
+std::vector<std::uint8_t> page_flags(const VtpContent& surface, const char* name) {
+  std::vector<std::uint8_t> flags;
+  const VtpNumbers* const array = find_array(surface.cell_arrays, name);
+  if (array == nullptr || array->n_components != 1) return flags;
+  for (const double value : array->values) flags.push_back(value != 0 ? 1 : 0);
+  return flags;
+}
+
+void add_page_mesh(nlohmann::ordered_json& page, PageArrays& arrays, const VtpContent& surface,
+                   const std::vector<Vec3d>& start, const PageMarks& marks) {
+  SurfaceFile drawn;
+  drawn.positions = surface.positions;
+  drawn.triangles = surface.triangles;
+  drawn.normals.resize(surface.positions.size());  // the browser computes its own
+  drawn.unmatched = marks.unmatched;
+  drawn.untrusted = marks.untrusted;
+  std::vector<Vec3f> places;
+  places.reserve(start.size());
+  for (const Vec3d& place : start) places.push_back(static_cast<Vec3f>(place));
+  const SurfaceCover cover = cover_of(drawn, places);
+  page["positions"]["target"] = add_page_positions(arrays, cover.positions);
+  page["triangles"] = arrays.add_triangles(surface.triangles);
+  constexpr int kShareSteps = 255;
+  const auto has = [](const std::vector<std::uint8_t>& flags) {
+    return std::find(flags.begin(), flags.end(), 1) != flags.end();
+  };
+  page["cover"] = nlohmann::ordered_json::object();
+  const auto add = [&](const char* name, const std::vector<float>& shares, const char* text) {
+    page["cover"][name] = arrays.add_numbers({shares.begin(), shares.end()}, kShareSteps);
+    page["cover"][name]["text"] = text;
+  };
+  if (has(marks.unmatched)) add("matched", cover.matched, marks.unmatched_text);
+  if (has(marks.untrusted)) add("trusted", cover.trusted, "not trusted");
 }
 
 }  // namespace espdiff

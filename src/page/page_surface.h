@@ -7,6 +7,7 @@
 
 #include "io/vtk/read_vtp.h"
 #include "page/page_arrays.h"
+#include "scene/surface_cover.h"
 
 namespace espdiff {
 
@@ -17,7 +18,8 @@ void require_three();
 /// @throws InputError (more than kMaxPageTriangles)
 void require_page_size(std::size_t n_triangles, const std::string& prefix);
 
-/// Embedded files, in the order in which they run.
+/// Embedded files of three.js, and ours, in the order in which they run.
+std::vector<std::string> surface_page_library();
 std::vector<std::string> surface_page_scripts();
 
 /// Coordinates, in kFineSteps of the whole: 0.001 A in 65 A.
@@ -40,8 +42,18 @@ nlohmann::ordered_json page_quantity(PageArrays& arrays, const VtpNumbers& value
 /// @throws IoError, FormatError, InputError; see shared_limits()
 void share_page_ranges(nlohmann::ordered_json& page, const std::string& prefix, std::vector<std::string> others);
 
-/// `triangles` of the record: those that count first, then the rest.
-void add_page_triangles(nlohmann::ordered_json& page, PageArrays& arrays, const std::vector<Triangle>& counted,
-                        const std::vector<Triangle>& rest);
+/// Which triangles a page marks, and how it calls them.
+struct PageMarks {
+  std::vector<std::uint8_t> unmatched, untrusted;  ///< [triangle] nonzero; the second of matched ones only; empty: none
+  const char* unmatched_text = "no counterpart";
+};
+
+/// [triangle] nonzero entries of a cell array; empty without such an array.
+std::vector<std::uint8_t> page_flags(const VtpContent& surface, const char* name);
+
+/// `triangles`, `positions.target` and `cover` of the record: as pictures draw the surface, with smooth borders.
+/// @param start [vertex] the superposed source; an ensemble's template itself
+void add_page_mesh(nlohmann::ordered_json& page, PageArrays& arrays, const VtpContent& surface,
+                   const std::vector<Vec3d>& start, const PageMarks& marks);
 
 }  // namespace espdiff

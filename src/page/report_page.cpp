@@ -159,15 +159,25 @@ Json quantities_json(PageArrays& arrays, const PairFiles& files) {
   return list;
 }
 
+/// What has no counterpart, and what has one and is not trusted.
+PageMarks marks_of(const VtpContent& surface) {
+  PageMarks marks{page_flags(surface, "no_counterpart"), std::vector<std::uint8_t>(surface.triangles.size(), 0)};
+  for (const char* name : {"why", "corrupt"}) {
+    const std::vector<std::uint8_t> flags = page_flags(surface, name);
+    for (std::size_t t = 0; t < flags.size(); ++t)
+      if (flags[t] != 0 && (marks.unmatched.empty() || marks.unmatched[t] == 0)) marks.untrusted[t] = 1;
+  }
+  return marks;
+}
+
 void add_surface(Json& page, PageArrays& arrays, const PairFiles& files) {
   const VtpContent& surface = files.surface;
   require_page_size(surface.triangles.size(), files.prefix);
   page["n_vertices"] = surface.positions.size();
-  page["positions"]["target"] = add_page_positions(arrays, surface.positions);
-  page["positions"]["source"] = add_page_positions(arrays, superposed_source(files));
+  const std::vector<Vec3d> start = superposed_source(files);
+  add_page_mesh(page, arrays, surface, start, marks_of(surface));
+  page["positions"]["source"] = add_page_positions(arrays, start);
   page["quantities"] = quantities_json(arrays, files);
-  const CountedTriangles triangles = counted_triangles(surface);
-  add_page_triangles(page, arrays, triangles.counted, triangles.rest);
   page["residue"] = arrays.add_integers(residues_of_vertices(files));
   page["fade"] = {{"name", "slip"}, {"from", 1}, {"to", 3}, {"text", "fainter where the mapping slips"}};
   page["linked"] = Json::array();
@@ -197,7 +207,7 @@ std::string report_page(const std::string& prefix, const std::string& title, con
   add_surface(page, arrays, files);
   add_backbones(page, arrays, prefix);
   share_page_ranges(page, prefix, range_of);
-  return assembled_page(page, arrays, "report.html", surface_page_scripts());
+  return assembled_page(page, arrays, "report.html", surface_page_scripts(), surface_page_library());
 }
 
 }  // namespace espdiff

@@ -34,7 +34,7 @@ std::string tics(std::size_t n, double room, double least, Label label) {
 
 }  // namespace
 
-std::pair<double, double> colour_range(const FrameMap& map) {
+std::pair<double, double> drawn_range(const FrameMap& map) {
   if (map.low != map.high) return {map.low, map.high};
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const double value : map.values) {
@@ -55,7 +55,7 @@ std::pair<double, double> colour_range(const FrameMap& map) {
 
 std::string frame_map_script(const FrameMap& map, PictureFormat format) {
   check(map);
-  const auto [low, high] = colour_range(map);
+  const auto [low, high] = drawn_range(map);
   const std::size_t n_frames = map.frames.size(), n_rows = map.labels.size();
   const double height = std::clamp(3.0 * static_cast<double>(n_rows), 180.0, 560.0);
   PictureSize size;

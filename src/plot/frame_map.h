@@ -20,7 +20,7 @@ struct FrameMap {
 };
 
 /// Lowest and highest value; symmetric about 0 where there are both signs. @throws InputError (there is none)
-std::pair<double, double> colour_range(const FrameMap& map);
+std::pair<double, double> drawn_range(const FrameMap& map);
 
 /// The gnuplot script: a column for each frame, rows from top to bottom, labels thinned out. Colours as in a heat map:
 /// red over grey to blue for both signs, otherwise an even ramp in CIE lightness.

@@ -197,7 +197,7 @@ std::vector<std::size_t> drawing_order(const HeatMap& map) {
   return things.back();
 }
 
-std::pair<double, double> colour_range(const HeatMap& map) {
+std::pair<double, double> drawn_range(const HeatMap& map) {
   const std::size_t n = map.labels.size();
   double low = map.low, high = map.high;
   if (low == high) {
@@ -223,7 +223,7 @@ std::pair<double, double> colour_range(const HeatMap& map) {
 
 std::string heat_map_script(const HeatMap& map, PictureFormat format) {
   check(map);
-  const auto [low, high] = colour_range(map);
+  const auto [low, high] = drawn_range(map);
   const std::vector<std::size_t> order = drawing_order(map);
   const Layout l = layout_of(map);
   const auto n = static_cast<double>(order.size());

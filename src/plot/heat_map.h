@@ -35,7 +35,7 @@ struct HeatMap {
 std::string heat_map_script(const HeatMap& map, PictureFormat format);
 
 /// Lowest and highest value off the diagonal; symmetric about 0 for diverging colours.
-std::pair<double, double> colour_range(const HeatMap& map);
+std::pair<double, double> drawn_range(const HeatMap& map);
 /// The items from left to right: ordered by the dendrogram, or as given.
 std::vector<std::size_t> drawing_order(const HeatMap& map);
 

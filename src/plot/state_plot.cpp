@@ -31,6 +31,19 @@ void add_column(std::ostream& out, const StatePlot& plot, double StateBar::*memb
 
 }  // namespace
 
+std::pair<double, double> drawn_range(const StatePlot& plot) {
+  check_states(plot);
+  if (plot.low != plot.high) return {plot.low, plot.high};
+  double low = plot.bars.front().source, high = low;
+  for (const StateBar& bar : plot.bars) {
+    const double also = plot.has_bars ? bar.difference : bar.source;
+    low = std::min({low, bar.source, bar.target, also});
+    high = std::max({high, bar.source, bar.target, also});
+  }
+  if (plot.has_bars) return {std::min(low, 0.0), std::max(high, 0.0)};
+  return {low, high};
+}
+
 std::string state_bars_script(const StatePlot& plot, PictureFormat format) {
   check_states(plot);
   const auto n = static_cast<double>(plot.bars.size());
@@ -43,7 +56,12 @@ std::string state_bars_script(const StatePlot& plot, PictureFormat format) {
       << ":-1]\nset ytics scale 0 (";
   for (std::size_t i = 0; i < plot.bars.size(); ++i)
     out << (i == 0 ? "" : ", ") << gnuplot_tic(plot.bars[i].label) << ' ' << i;
-  out << ")\nset arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor rgb '" << kInk << "'\n";
+  out << ")\n";
+  if (plot.low != plot.high) {
+    const double room = 0.03 * (plot.high - plot.low);
+    out << "set xrange [" << gnuplot_number(plot.low - room) << ':' << gnuplot_number(plot.high + room) << "]\n";
+  }
+  out << "set arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor rgb '" << kInk << "'\n";
   for (std::size_t i = 0; i < plot.bars.size(); ++i) {
     const double row = static_cast<double>(i), value = plot.bars[i].difference;
     out << "set object rectangle from 0," << gnuplot_number(row - 0.35) << " to " << gnuplot_number(value) << ','
@@ -61,13 +79,8 @@ std::string state_bars_script(const StatePlot& plot, PictureFormat format) {
 }
 
 std::string state_scatter_script(const StatePlot& plot, PictureFormat format) {
-  check_states(plot);
   const std::string unit = plot.unit.empty() ? "" : " (" + plot.unit + ")";
-  double low = plot.bars.front().source, high = low;
-  for (const StateBar& bar : plot.bars) {
-    low = std::min({low, bar.source, bar.target});
-    high = std::max({high, bar.source, bar.target});
-  }
+  const auto [low, high] = drawn_range(plot);
   const double room = std::max(0.05 * (high - low), 1e-3);
   std::vector<std::size_t> order(plot.bars.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

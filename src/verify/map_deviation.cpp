@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "io/files/read_input.h"
 #include "io/files/sha256.h"
 #include "io/grids/read_grid.h"
@@ -55,6 +56,7 @@ std::string map_deviation(const RecordedInput& input, const std::string& unit, c
   for (const float value : map.values) values->InsertNextValue(static_cast<double>(value));
   image->GetPointData()->SetScalars(values);
   for (std::size_t v = 0; v < points.size(); ++v) {
+    CancelRequest().check();
     if (!std::isfinite(potentials[v])) continue;
     int cell[3];
     double x[3] = {points[v].x, points[v].y, points[v].z}, within[3];

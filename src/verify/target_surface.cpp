@@ -23,6 +23,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/progress.h"
 
 namespace espdiff {
 namespace {
@@ -82,6 +83,7 @@ std::size_t GaussianAtoms::cell_of(const Vec3d& p, int axis) const {
 
 template <typename Visit>
 void GaussianAtoms::visit(const Vec3d& p, Visit visit) const {
+  CancelRequest().check();
   std::size_t low[3], high[3];
   for (int axis = 0; axis < 3; ++axis) {
     Vec3d a = p, b = p;
@@ -148,6 +150,7 @@ vtkSmartPointer<vtkPolyData> GaussianAtoms::surface(double isovalue, double spac
   std::fill(values, values + image->GetNumberOfPoints(), 0.0);
   // Each atom adds to the points that it reaches.
   for (std::size_t i = 0; i < positions_.size(); ++i) {
+    CancelRequest().check();
     const double reach = kReachInWidths * widths_[i], s2 = widths_[i] * widths_[i];
     int low[3], high[3];
     for (int axis = 0; axis < 3; ++axis) {
@@ -253,6 +256,7 @@ SurfaceDistances distances(vtkPolyData* from, vtkPolyData* to, double limit_A) {
     (distance > limit_A ? beyond : within) += distance > limit_A ? weight : weight * distance;
   };
   for (vtkIdType t = 0; t < from->GetNumberOfCells(); ++t) {
+    CancelRequest().check();
     from->GetCellPoints(t, corners);
     double p[3][3], centre[3] = {0, 0, 0};
     for (vtkIdType k = 0; k < 3; ++k) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/progress.h"
 #include "verify/target_surface.h"
 
 namespace espdiff {
@@ -72,6 +73,7 @@ std::size_t count_meetings(const std::vector<Vec3d>& positions, const std::vecto
   vtkNew<vtkIdList> candidates;
   std::size_t n = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
+    CancelRequest().check();
     n += surface.has_no_area(t) ? 1 : 0;
     std::array<double, 6> box{};
     mesh->GetCellBounds(static_cast<vtkIdType>(t), box.data());

@@ -70,7 +70,7 @@ const Rooms kAllowed = {
      {"base", "align", "causes", "engine", "field", "io", "pair", "prepare", "potential", "report/records",
       "report/sections"}},
     {"complementarity", {"base", "align", "engine", "field", "io", "pair", "prepare", "potential", "report"}},
-    {"page", {"base", "io", "plot", "report"}},
+    {"page", {"base", "io", "plot", "scene", "report"}},
     {"export", {"base", "io", "plot", "report"}},
     {"frames", {"base", "io", "prepare"}},
     {"trajectory",

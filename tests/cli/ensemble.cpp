@@ -87,6 +87,9 @@ TEST_CASE("the mutant's charge is found at the mutant's residue, with its sign")
   CHECK(out.out.find("labels exchanged in all 70 ways") != std::string::npos);
   CHECK(out.err.empty());
   const auto json = nlohmann::json::parse(read_file(in.folder.file("out.json")));
+  CHECK(json["potential_unit"] == "kT/e in vacuum");
+  CHECK(contains(json["conclusion"].get<std::string>(), " kT/e in vacuum ("));
+  CHECK(contains(out.out, "diff. (kT/e)"));
   REQUIRE(!json.at("patches").empty());
   CHECK(json["patches"][0]["difference"].get<double>() < 0);
   bool at_mutant = false;

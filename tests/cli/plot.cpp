@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -125,6 +127,51 @@ TEST_CASE("a comparison is drawn from any of its files, with both states") {
   CHECK(contains(shapes.err, "has no potentials of both states; compare with charges or maps"));
   CHECK(contains(run_espdiff("plot " + table + " --metric rmsd_A --overwrite -o " + svg).err,
                  "is one of a comparison's residues"));
+}
+
+TEST_CASE("plots of a study have the widest range of all its results") {
+  if (!has_gnuplot()) return;
+  const ScratchFolder folder;
+  const std::string head =
+      "chain,residue_number,insertion_code,residue_name,area [A^2],mean_signed_difference [kT/e],mean_source [kT/e],"
+      "mean_target [kT/e]\n";
+  const auto result = [&](const std::string& name, const std::string& row, const std::string& columns) {
+    folder.write(name + ".residues.csv", columns + row);
+    folder.write(name + ".json", "{}");
+    folder.write(name + ".vtp", "");
+    return folder.file(name);
+  };
+  const std::string narrow = result("narrow", "A,8,,LYS,100,-0.5,1,0.5\n", head),
+                    wide = result("wide", "A,8,,LYS,100,-30,10,-20\n", head),
+                    volts = result("volts", "A,8,,LYS,100,-30,10,-20\n",
+                                   std::regex_replace(head, std::regex("kT/e"), "mV"));
+  const auto drawn = [&](const std::string& arguments) {
+    const Outcome out = run_espdiff("plot " + arguments + " --overwrite -o " + folder.file("x.svg"));
+    REQUIRE_MESSAGE(out.status == 0, out.err);
+    return read_file(folder.file("x.svg"));
+  };
+  for (const std::string kind : {" --kind bars", " --kind scatter"}) {
+    CHECK_FALSE(contains(drawn(narrow + kind), ">-20<"));
+    CHECK(contains(drawn(narrow + kind + " --range-of " + wide + ".json"), ">-20<"));
+    CHECK(contains(drawn(wide + kind + " --range-of " + narrow), ">-20<"));
+  }
+  const std::string one = made_matrix(folder);
+  auto json = nlohmann::json::parse(read_file(one));
+  json["metrics"]["rmsd_A"]["values"][0][1] = 777;
+  const std::string two = folder.write("two.json", json.dump());
+  CHECK_FALSE(contains(drawn(one + " --metric rmsd_A"), "> 700<"));
+  CHECK(contains(drawn(one + " --metric rmsd_A --range-of " + two), "> 700<"));
+  for (const auto& [arguments, error] : std::vector<std::pair<std::string, std::string>>{
+           {narrow + " --range-of " + volts, "results that share a scale have one unit"},
+           {narrow + " --range-of " + one, "is no comparison's; --range-of takes results of one kind"},
+           {one + " --range-of " + narrow, "is no matrix; --range-of takes results of one kind"},
+           {one + " --range 0 1 --range-of " + two, "--range-of and --range exclude each other"},
+           {one + " --source m0 --range-of " + two, "--range, --range-of and --order are for heat maps"},
+           {narrow + " --range-of " + folder.file("none"), "none: "}}) {
+    const Outcome wrong = run_espdiff("plot " + arguments + " -o " + folder.file("y.svg"));
+    CHECK_MESSAGE(wrong.status == 2, arguments);
+    CHECK_MESSAGE(contains(wrong.err, error), wrong.err);
+  }
 }
 
 TEST_CASE("wrong usage of plot exits 2 and writes nothing") {

@@ -1,6 +1,9 @@
 // usage.cpp: help, versions and wrong usage of the command line.
 #include <doctest/doctest.h>
 
+#include <cstdlib>
+#include <filesystem>
+
 #include "cli/run_espdiff.h"
 
 using namespace espdiff_test;  // NOLINT: a test
@@ -115,6 +118,26 @@ TEST_CASE("doctor names the back ends and the readers") {
   for (const char* line :
        {"cpu            ok", "cuda", "--device auto", "pme on cpu", "pme on cuda", "structures", "maps"})
     CHECK_MESSAGE(contains(outcome.out, line), line);
+}
+
+TEST_CASE("doctor finds the module where packages put it, and says how VMD does") {
+  const ScratchFolder folder;
+  for (const char* modules : {"lib/espdiff", "."}) {
+    const std::string root = folder.file(*modules == 'l' ? "usr" : "unpacked");
+    const std::filesystem::path module = std::filesystem::path(root) / modules / "molfile";
+    std::filesystem::create_directories(root + "/bin");
+    std::filesystem::copy_file(ESPDIFF_BINARY, root + "/bin/espdiff");
+    const auto doctor = [&] {
+      REQUIRE(std::system((root + "/bin/espdiff doctor >" + folder.file("out")).c_str()) == 0);
+      return read_file(folder.file("out"));
+    };
+    CHECK(contains(doctor(), "vmd module     --   none beside this program: a build has it where Tcl 8.6 is found"));
+    std::filesystem::create_directories(module);
+    std::filesystem::copy_file(ESPDIFF_BINARY, module / "espdiffplugin.so");  // any file
+    const std::string place = (std::filesystem::path(root) / (*modules == 'l' ? "lib/espdiff" : "")).string();
+    CHECK_MESSAGE(contains(doctor(), "vmd module     ok   "), doctor());
+    CHECK_MESSAGE(contains(doctor(), "lappend auto_path {" + place), doctor());
+  }
 }
 
 TEST_CASE("an explicit cuda that is not there is an error, not a silent cpu run") {

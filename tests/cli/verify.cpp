@@ -79,6 +79,26 @@ TEST_CASE("a state against itself is verified: its residues' correlation is one 
   CHECK(verified.status == 0);
 }
 
+TEST_CASE("fields have units of their own, which their columns must have") {
+  const ScratchFolder folder;
+  write_file(folder.file("a.pqr"), bent_row(0, 12));
+  write_file(folder.file("b.pqr"), bent_row(0.6, 12));
+  const std::string prefix = folder.file("r");
+  REQUIRE(run_espdiff("compare " + folder.file("a.pqr") + " " + folder.file("b.pqr") +
+                      " --potential coulomb --field charge --field curvature -q --exit-zero -o " + prefix)
+              .status == 0);
+  const Outcome verified = run_espdiff("verify " + prefix);
+  CHECK_MESSAGE(verified.status == 0, verified.out);
+  std::string table = read_file(prefix + ".residues.csv");
+  const std::string column = "curvature_mean_source [1/A]";
+  REQUIRE(contains(table, column));
+  write_file(prefix + ".residues.csv", table.replace(table.find(column), column.size(), "curvature_mean_source [e]"));
+  const Outcome wrong = run_espdiff("verify " + prefix);
+  CHECK(wrong.status == 1);
+  CHECK_MESSAGE(contains(wrong.out, "columns of other units than OUT.json has"), wrong.out);
+  CHECK(contains(wrong.out, "NOT VERIFIED: 1 of "));
+}
+
 TEST_CASE("a result of three atoms is verified, whose surface has no hollows") {
   const ScratchFolder folder;
   const std::string atoms =

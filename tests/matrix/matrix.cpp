@@ -229,7 +229,7 @@ TEST_CASE("an interrupted run continues and writes the same bytes; so do parts t
   CHECK(contains(message_of([&] {
                    merge_matrix({parts[0], parts[1]}, run_to(folder.file("two")));
                  }),
-                 "4 of 12 pairs are missing, the first v1 to v2"));
+                 parts[0] + " and 1 more file: 4 of 12 pairs are missing, the first v1 to v2; resume the shard"));
   CHECK(contains(message_of([&] { merge_matrix(parts, run_to(folder.file("merged"))); }), "overwrite replaces it"));
   // A part of a run with another setting.
   MatrixRun other = run_to(folder.file("other"));

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <fstream>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -102,6 +103,64 @@ TEST_CASE("a page holds the numbers, the residues and the verdict of its result,
     const std::string ours = page_texts().at("report.html") + page_texts().at("report.css");
     CHECK_MESSAGE(!contains(ours, fetched), fetched);
   }
+}
+
+TEST_CASE("what is not trusted or has no counterpart ends at a smooth line, as in pictures") {
+  VtpContent sheet;  // 21 x 21 vertices: the left is not trusted, a square is unmatched, and lost
+  std::vector<Vec3d> start;
+  PageMarks marks;
+  constexpr int kSide = 21;
+  const auto is_lost = [](int x, int y) { return x > 12 && x < 18 && y > 7 && y < 13; };
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      start.push_back({x + 0.0, y + 0.0, 0});
+      sheet.positions.push_back(is_lost(x, y) ? Vec3d{50, 50, 50} : Vec3d{x + 0.0, y + 0.0, 2});
+    }
+  }
+  for (int y = 0; y + 1 < kSide; ++y) {
+    for (int x = 0; x + 1 < kSide; ++x) {
+      const auto at = static_cast<std::uint32_t>(y * kSide + x), up = at + kSide;
+      for (const Triangle& t : {Triangle{at, at + 1, up}, Triangle{at + 1, up + 1, up}}) {
+        sheet.triangles.push_back(t);
+        marks.unmatched.push_back(
+            std::any_of(t.begin(), t.end(), [&](auto corner) { return sheet.positions[corner].x == 50; }) ? 1 : 0);
+        marks.untrusted.push_back(x < 6 ? 1 : 0);
+      }
+    }
+  }
+  nlohmann::ordered_json page;
+  PageArrays arrays;
+  add_page_mesh(page, arrays, sheet, start, marks);
+  const auto share = [&](const char* name, int x, int y) {
+    const auto& cover = page.at("cover").at(name);
+    const std::size_t offset = cover.at("offset"), n = cover.at("n"), end = static_cast<std::size_t>(y * kSide + x);
+    std::uint16_t step = 0;
+    for (std::size_t v = 0; v <= end; ++v)
+      step = static_cast<std::uint16_t>(step + static_cast<unsigned char>(arrays.bytes().at(offset + v)) +
+                                        256 * static_cast<unsigned char>(arrays.bytes().at(offset + n + v)));
+    const double low = cover.at("min"), high = cover.at("max");
+    return low + step * (high - low) / cover.at("steps").get<double>();
+  };
+  CHECK(share("trusted", 0, 10) < 0.1);
+  CHECK(share("trusted", 20, 0) == doctest::Approx(1));
+  double before = 0;
+  for (int x = 0; x < 12; ++x) {  // rises over several vertices, and crosses the half where the triangles end
+    const double here = share("trusted", x, 3);
+    CHECK(here >= before);
+    CHECK(here - before < 0.3);
+    if (x < 6) CHECK(here < 0.5);
+    if (x > 6) CHECK(here > 0.5);
+    before = here;
+  }
+  CHECK(share("matched", 15, 10) < 0.2);
+  CHECK(share("matched", 13, 8) < 0.5);
+  CHECK(share("matched", 10, 10) > 0.5);
+  CHECK(page.at("cover").at("matched").at("text") == "no counterpart");
+  CHECK(page.at("cover").at("trusted").at("text") == "not trusted");
+  CHECK(page.at("positions").at("target").at("max") == doctest::Approx(20));  // lost vertices follow their surroundings
+  nlohmann::ordered_json whole;
+  add_page_mesh(whole, arrays, sheet, start, {});
+  CHECK(whole.at("cover").empty());
 }
 
 TEST_CASE("a page has the backbones, or says why not") {
@@ -247,6 +306,47 @@ TEST_CASE("a browser has the numbers of the file; a field's target is the sum of
   if (!dom) return;
   CHECK(!contains(*dom, "data-failed"));
   CHECK_MESSAGE(contains(*dom, "data-seen=\"" + std::to_string(wanted.size()) + "|same\""), dom->substr(0, 400));
+}
+
+TEST_CASE("a browser marks what has no counterpart and what is not trusted, each with its key") {
+  if (!has_three()) return;
+  const SmallResult result;
+  const std::string whole = report_page(result.prefix, "");
+  auto record = nlohmann::json::parse(element(whole, "record"));
+  CHECK(record.at("cover").empty());
+  CHECK(!contains(whole, "REVISION"));  // three.js is packed
+  // Every vertex is half trusted in one page, and has no counterpart in the other: one number for all.
+  const std::size_t n = record.at("n_vertices");
+  const auto with = [&](const char* part, double share) {
+    auto changed = record;
+    changed["cover"][part] = {{"offset", 0}, {"n", n},      {"min", share}, {"max", share},
+                              {"steps", 1},  {"stride", n}, {"text", part}};
+    std::string page = whole;
+    const std::string old = element(whole, "record");
+    return page.replace(page.find(old), old.size(), changed.dump());
+  };
+  const std::string look =
+      "const gl = document.querySelector('#canvas canvas'), copy = document.createElement('canvas'); "
+      "const grey = () => { copy.width = gl.width; copy.height = gl.height; const context = copy.getContext('2d'); "
+      "context.drawImage(gl, 0, 0); const p = context.getImageData(0, 0, gl.width, gl.height).data; let some = 0, all "
+      "= 0; "
+      "for (let i = 0; i < p.length; i += 4) { if (p[i + 3] < 255) continue; ++all; "
+      "some += Math.abs(p[i] - p[i + 1]) < 6 && Math.abs(p[i + 1] - p[i + 2]) < 6; } return all > 1000 && some > 0.9 * "
+      "all; }; "
+      "const keys = () => ['untrusted', 'unmatched'].filter((id) => document.getElementById(id).offsetWidth > "
+      "0).join('+'); "
+      "const choose = document.getElementById('quantity'), own = [...choose.options].map((o) => o.textContent); "
+      "const of = (name) => { choose.value = Page.record.quantities.findIndex((q) => q.name === name); "
+      "choose.onchange(); "
+      "return keys() + ':' + grey(); }; "
+      "document.documentElement.dataset.seen = [of('potential_difference'), of('potential_source')].join('|');";
+  const auto unmarked = shown_in_browser(whole, look, result.folder);
+  if (!unmarked) return;
+  CHECK_MESSAGE(contains(*unmarked, "data-seen=\":false|:false\""), unmarked->substr(0, 400));
+  const auto untrusted = shown_in_browser(with("trusted", 0.25), look, result.folder);
+  CHECK_MESSAGE(contains(*untrusted, "data-seen=\"untrusted:true|:false\""), untrusted->substr(0, 400));
+  const auto unmatched = shown_in_browser(with("matched", 0.25), look, result.folder);
+  CHECK_MESSAGE(contains(*unmatched, "data-seen=\"unmatched:true|unmatched:true\""), unmatched->substr(0, 400));
 }
 
 TEST_CASE("a browser draws the surface, and a click on a residue shows it") {

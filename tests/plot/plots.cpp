@@ -153,13 +153,13 @@ TEST_CASE("a title that is longer than its panel stands above it") {
 
 TEST_CASE("the colour range excludes the diagonal and is symmetric for signed values") {
   HeatMap map = four();
-  CHECK(colour_range(map).first == 1);
-  CHECK(colour_range(map).second == 8);
+  CHECK(drawn_range(map).first == 1);
+  CHECK(drawn_range(map).second == 8);
   map.diverging = true;
-  CHECK(colour_range(map).first == -8);
+  CHECK(drawn_range(map).first == -8);
   map.low = -2;
   map.high = 3;
-  CHECK(colour_range(map).first == -2);
+  CHECK(drawn_range(map).first == -2);
   map.low = 4;
   CHECK(contains(message_of([&] { heat_map_script(map, PictureFormat::kSvg); }), "from 4 down to 3"));
   map.low = map.high = 0;

@@ -245,3 +245,63 @@ def test_results_follow_their_schemas(result, tmp_path):
     del incomplete["inputs"]
     with pytest.raises(jsonschema.ValidationError, match="'inputs' is a required property"):
         validator("comparison").validate(incomplete)
+
+
+def test_pages_of_a_matrix_and_of_files(result, tmp_path):
+    if "libjs-three" in str(_page_error(result)):
+        pytest.skip("SKIPPED: built without libjs-three")
+    prefix = tmp_path / "pair"
+    result.save(prefix)
+    page = espdiff.report(prefix, title="From files")
+    assert "From files" in page and page == espdiff.report(f"{prefix}.json", title="From files")
+    assert espdiff.report(f"{prefix}.vtp", tmp_path / "p.html", range_of=[prefix]) == str(tmp_path / "p.html")
+    with pytest.raises(espdiff.InputError, match="result: a Comparison is no path of a result"):
+        espdiff.report(result)
+    with pytest.raises(espdiff.IoError, match="none.json: cannot be read"):
+        espdiff.report(tmp_path / "none")
+    with pytest.raises(espdiff.IoError, match="no/p.html"):
+        espdiff.report(prefix, tmp_path / "no" / "p.html")
+    made = espdiff.matrix(_three_rows(tmp_path), potential="coulomb")
+    again = espdiff.load(_saved_matrix(tmp_path))
+    for matrix in (made, again):
+        page = matrix.report()
+        assert "3 states" in page and "m1" in page
+    (tmp_path / "m.csv").unlink()
+    with pytest.raises(espdiff.InputError, match="the page needs OUT.csv"):
+        espdiff.load(tmp_path / "m.json").report()
+
+
+def _three_rows(folder):
+    for k in range(3):
+        atoms = [f"ATOM  {i + 1:5d}  CA  ALA A{i + 1:4d}    {3 * i + 0.1 * k:8.3f}{0.7 * (i % 3):8.3f}{0.4 * (i % 2):8.3f} "
+                 f"{0.5:7.4f} {2.0:6.4f}\n" for i in range(8)]
+        (folder / f"m{k}.pqr").write_text("".join(atoms))
+    return [folder / f"m{k}.pqr" for k in range(3)]
+
+
+def _saved_matrix(folder):
+    espdiff.matrix(_three_rows(folder), potential="coulomb", output=folder / "m")
+    return folder / "m.json"
+
+
+@pytest.mark.parametrize("prefix", ["/", "", "folder/"])
+def test_a_prefix_names_a_file(result, prefix):
+    with pytest.raises(espdiff.InputError, match="prefix: .* names no file; give a name, such as"):
+        result.save(prefix)
+
+
+@pytest.mark.parametrize("given, error", [
+    ({"charges": [1e30, 0]}, r"charges: atom 0 has 1e\+30 e; between -1e\+06 and 1e\+06 is taken"),
+    ({"radii": [1, 5000]}, r"radii: atom 1 has 5000 A; between 0 and 1000 is taken"),
+    ({"positions": "abc"}, "positions: a str is no array of numbers; give numpy.asarray"),
+    ({"positions": [[0, 0, 0]] * 2}, "positions: a list is no array of numbers; give numpy.asarray"),
+    ({"positions": None}, "positions: none are given"),
+    ({"names": [1, 2]}, "names: a list is no list of texts, one for each atom"),
+    ({"residue_numbers": ["a", "b"]}, "residue_numbers: a list is no list of whole numbers"),
+    ({"name": 7}, "name: a int is no text")])
+def test_arrays_of_a_state_are_checked(given, error):
+    arrays = {"positions": np.zeros((2, 3)) + [[0, 0, 0], [3, 0, 0]], "radii": np.array([2.0, 2]), "charges": np.array([0.5, 0.5])}
+    for name, value in given.items():
+        arrays[name] = np.asarray(value, float) if name in ("radii", "charges") else value
+    with pytest.raises(espdiff.InputError, match=error):
+        espdiff.State.from_arrays(arrays.pop("positions"), **arrays)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "verify/target_surface.h"
 #include "verify/triangle_meetings.h"
 
@@ -86,6 +87,19 @@ TEST_CASE("a surface that a damaged file has at one point is not counted through
   const auto begun = std::chrono::steady_clock::now();
   CHECK(espdiff::count_meetings(std::vector<Vec3d>(90000, Vec3d{1, 2, 3}), triangles) > 1000);
   CHECK(std::chrono::steady_clock::now() - begun < std::chrono::seconds(20));
+}
+
+TEST_CASE("the loops end when the user asks for it") {
+  Tetrahedron pair;
+  pair.add({0, 0, 0});
+  pair.add({1, 1, 1});
+  const GaussianAtoms atoms({{0, 0, 0}, {2, 0, 0}}, {1.5, 1.5});
+  espdiff::Progress progress;
+  const espdiff::CancelScope scope(progress);
+  CHECK_NOTHROW(espdiff::count_meetings(pair.positions, pair.triangles));
+  progress.request_cancel();
+  CHECK_THROWS_AS(espdiff::count_meetings(pair.positions, pair.triangles), espdiff::Cancelled);
+  CHECK_THROWS_AS(atoms.surface(0.5, 0.5), espdiff::Cancelled);
 }
 
 TEST_SUITE_END();

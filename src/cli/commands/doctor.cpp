@@ -26,12 +26,24 @@ void line(const char* what, bool good, const Message& text) {
   std::cout << formatted("%-14s %-4s %s\n", what, good ? "ok" : "--", spelled(text).c_str());
 }
 
-/// The module built with this program; empty if there is none.
-std::string vmd_module() {
+/// The module of this program, and how VMD finds it. It lies in the build's folder vmd/, beside the program's folder
+/// (scripts/install-vmd, scripts/pack-vmd), or where Debian's package espdiff-vmd has it.
+void vmd_module_line() {
   std::error_code ignored;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const auto module = program.parent_path().parent_path() / "vmd" / "molfile" / "espdiffplugin.so";
-  return std::filesystem::exists(module, ignored) ? module.string() : std::string();
+  const auto root = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path().parent_path();
+  for (const char* folder : {"vmd", "", "lib/espdiff"}) {
+    const auto place = (root / folder).lexically_normal(), module = place / "molfile" / "espdiffplugin.so";
+    if (!std::filesystem::exists(module, ignored)) continue;
+    const bool is_build = std::string(folder) == "vmd";
+    line("vmd module", true,
+         module.string() + (is_build ? std::string("; scripts/install-vmd installs it for VMD")
+                                     : "; VMD finds it by `lappend auto_path {" +
+                                           (place / "tcl").lexically_normal().string() + "}` in ~/.vmdrc"));
+    return;
+  }
+  line("vmd module", false,
+       "none beside this program: a build has it where Tcl 8.6 is found (Debian: tcl8.6-dev), of Debian's packages "
+       "espdiff-vmd; `espdiff doctor` in VMD has details");
 }
 
 int doctor_verb() {
@@ -82,12 +94,7 @@ int doctor_verb() {
   line("prepare", !pdb2pqr.empty(),
        !pdb2pqr.empty() ? pdb2pqr
                         : std::string("no program `pdb2pqr30` on PATH, which assigns charges; ") + kPdb2pqrRemedy);
-  const std::string module = vmd_module();
-  line("vmd module", !module.empty(),
-       !module.empty()
-           ? module + "; scripts/install-vmd installs it for VMD"
-           : "not built beside this program: Tcl 8.6 was not found when this was built (Debian: tcl8.6-dev), "
-             "or it is installed elsewhere; `espdiff doctor` in VMD has details");
+  vmd_module_line();
   const std::string vmd = find_program("vmd");
   line("vmd", !vmd.empty(), !vmd.empty() ? vmd : "no program `vmd` on PATH; only the VMD module needs it");
   return 0;

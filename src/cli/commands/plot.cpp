@@ -28,7 +28,7 @@ namespace {
 struct PlotArguments {
   std::string input, output, source, order = "given", x, title, field, kind = "bars";
   int top = 20;
-  std::vector<std::string> metrics;
+  std::vector<std::string> metrics, range_of;
   std::vector<double> range;
   bool both_ways = false, normalize = false, no_marks = false, causes = false, overwrite = false;
 };
@@ -138,13 +138,6 @@ std::string potential_unit_of(const CsvTable& table) {
   return "";
 }
 
-/// Whether it is the OUT.csv of a matrix.
-bool is_matrix_table(const CsvTable& table) { return table.find("source") >= 0 && table.find("target") >= 0; }
-
-std::string matrix_json_of(const std::string& csv) {
-  return std::filesystem::path(csv).replace_extension(".json").string();
-}
-
 /// Columns of a table along another column, such as the frames of a trajectory. A column NAME_error gives NAME error
 /// bars.
 LinePlot along_table(const PlotArguments& a, const CsvTable& table) {
@@ -187,118 +180,111 @@ LinePlot along_table(const PlotArguments& a, const CsvTable& table) {
   return plot;
 }
 
-/// Whether it is the OUT.causes.csv of a comparison.
-bool is_cause_table(const CsvTable& table) { return table.find("reading") == 0 && table.find("poorly_known") > 0; }
-
-/// A panel for each reading, with its largest contributions.
-std::vector<CausePanel> cause_panels(const CsvTable& table) {
-  constexpr std::size_t kMostBars = 12;
-  std::size_t difference = 0;
-  std::string unit;
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    const std::string& name = table.columns[c];
-    const std::string start = "difference [";
-    if (name.compare(0, start.size(), start) != 0) continue;
-    difference = c;
-    unit = name.substr(start.size(), name.size() - start.size() - 1);
-  }
-  if (difference == 0) throw FormatError(table.path, 0, "there is no column 'difference [UNIT]'");
-  const std::size_t chain = table.require("chain"), number = table.require("residue_number"),
-                    name = table.require("residue_name"), kind = table.require("kind"),
-                    uncertain = table.require("poorly_known"), insertion = table.require("insertion_code");
-  std::vector<CausePanel> panels;
-  std::vector<double> sums;
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const std::vector<std::string>& cells = table.rows[row];
-    if (panels.empty() || panels.back().title != cells[0]) {
-      panels.push_back({cells[0], unit, {}});
-      sums.push_back(0);
-    }
-    const double value = table.number(row, difference);
-    sums.back() += value;
-    if (panels.back().bars.size() == kMostBars) continue;
-    std::string words = cells[kind];
-    std::replace(words.begin(), words.end(), '_', ' ');
-    const std::string residue = cells[name] + (cells[number].empty() ? "" : " " + cells[number]) + cells[insertion] +
-                                (cells[chain].empty() ? "" : " " + cells[chain]);
-    panels.back().bars.push_back({residue + ", " + words, value, cells[uncertain] == "1"});
-  }
-  for (std::size_t i = 0; i < panels.size(); ++i)
-    panels[i].title += ": " + formatted("%+.3g", sums[i]) + " " + unit + "; pale: place poorly known";
-  return panels;
+HeatMap heat_map_of(const PlotArguments& a, const PlotInput& input) {
+  if (!input.is_json) throw InputError(input.path + ": is no matrix; --range-of takes results of one kind");
+  return heat_map(a, read_matrix_json(input.path));
 }
 
-/// The table of a result's causes, whichever of its files is given.
-std::string cause_table_of(const std::string& given) {
-  const std::string ending = ".causes.csv";
-  const bool is_table =
-      given.size() > ending.size() && given.compare(given.size() - ending.size(), ending.size(), ending) == 0;
-  const std::string path = is_table ? given : result_prefix(given) + ending;
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    throw InputError(path + ": no such file; compare with --causes first, such as --causes whole");
-  return path;
+StatePlot states_of(const PlotArguments& a, const PlotInput& input) {
+  if (input.is_json || !is_pair_table(input.table))
+    throw InputError(input.path + ": is no comparison's; --range-of takes results of one kind");
+  return state_plot(input.table, a.kind == "bars", static_cast<std::size_t>(a.top), a.title, a.field);
 }
 
-int plot_verb(PlotArguments& a, const Context&) {
-  a.input = a.causes ? cause_table_of(a.input) : file_to_plot(a.input);
-  const PictureFormat format = picture_format(a.output);
-  const auto is_json_file = [&] {
-    return lower_case(a.input).size() > 5 && lower_case(a.input).substr(a.input.size() - 5) == ".json";
-  };
-  CsvTable table;
-  if (!is_json_file()) {
-    table = read_csv(a.input);
-    std::error_code ignored;
-    if (is_matrix_table(table) && std::filesystem::is_regular_file(matrix_json_of(a.input), ignored))
-      a.input = matrix_json_of(a.input);
+StatePlot groups_of(const PlotArguments& a, const PlotInput& input) {
+  if (input.is_json || !is_ensemble_table(input.table))
+    throw InputError(input.path + ": is no ensemble's; --range-of takes results of one kind");
+  return group_plot(input.table, a.kind == "bars", static_cast<std::size_t>(a.top), a.title);
+}
+
+FrameMap frame_map_of(const PlotArguments&, const PlotInput& input) {
+  if (input.is_json || !is_residue_table(input.table))
+    throw InputError(input.path + ": is no trajectory's table of residues; --range-of takes results of one kind");
+  return residue_map(input.table);
+}
+
+/// The plot of a result, with the widest range of it and of the others, which are drawn alike.
+template <typename Plot>
+Plot with_shared_range(const PlotArguments& a, const PlotInput& input,
+                       Plot (*plot_of)(const PlotArguments&, const PlotInput&)) {
+  Plot plot = plot_of(a, input);
+  if (a.range_of.empty()) return plot;
+  if (!a.range.empty()) throw InputError(kTwoRanges);
+  auto [low, high] = drawn_range(plot);
+  for (const std::string& given : a.range_of) {
+    const PlotInput other = plot_input(given);
+    const Plot alike = plot_of(a, other);
+    if (alike.unit != plot.unit)
+      throw InputError(other.path + ": in '" + alike.unit + "', and " + input.path + " in '" + plot.unit +
+                       "'; results that share a scale have one unit");
+    const auto range = drawn_range(alike);
+    low = std::min(low, range.first);
+    high = std::max(high, range.second);
   }
-  const bool is_json = is_json_file();
-  check_outputs({a.input}, {a.output}, a.overwrite);
-  if (is_json && a.source.empty()) {
-    if (a.normalize || a.both_ways) throw InputError("--normalize and --both-ways are for lines; name one --source");
-    write_picture(a.output, heat_map_script(heat_map(a, read_matrix_json(a.input)), format));
-    return 0;
-  }
-  if (!is_json && is_pair_table(table)) {
-    if (a.normalize || !a.metrics.empty() || !a.x.empty() || !a.range.empty())
-      throw InputError("--normalize, --metric, --x and --range are of other tables, and " + a.input +
+  plot.low = low;
+  plot.high = high;
+  return plot;
+}
+
+/// What the options of other plots would do here is refused.
+void refuse_others(const PlotArguments& a, const PlotInput& input) {
+  const bool has_lines = a.normalize || !a.metrics.empty() || !a.x.empty();
+  if (input.is_json) return;
+  if (is_pair_table(input.table)) {
+    if (has_lines || !a.range.empty())
+      throw InputError("--normalize, --metric, --x and --range are of other tables, and " + input.path +
                        " is one of a comparison's residues");
-    const StatePlot plot = state_plot(table, a.kind == "bars", static_cast<std::size_t>(a.top), a.title, a.field);
-    write_picture(a.output, a.kind == "bars" ? state_bars_script(plot, format) : state_scatter_script(plot, format));
-    return 0;
+    return;
   }
-  if (!is_json && is_ensemble_table(table) && a.metrics.empty() && a.x.empty() && a.field.empty()) {
+  if (is_residue_table(input.table) && has_lines)
+    throw InputError("--normalize, --metric and --x are for lines, and " + input.path + " is a table of residues");
+  if (is_cause_table(input.table) && (has_lines || !a.range.empty() || !a.range_of.empty()))
+    throw InputError("--normalize, --metric, --x, --range and --range-of are of other tables, and " + input.path +
+                     " is one of causes");
+}
+
+/// The gnuplot script of a file.
+std::string plot_script(const PlotArguments& a, const PlotInput& input, PictureFormat format) {
+  refuse_others(a, input);
+  if (input.is_json && a.source.empty()) {
+    if (a.normalize || a.both_ways) throw InputError("--normalize and --both-ways are for lines; name one --source");
+    return heat_map_script(with_shared_range(a, input, heat_map_of), format);
+  }
+  if (!input.is_json && is_pair_table(input.table)) {
+    const StatePlot plot = with_shared_range(a, input, states_of);
+    return a.kind == "bars" ? state_bars_script(plot, format) : state_scatter_script(plot, format);
+  }
+  if (!input.is_json && is_ensemble_table(input.table) && a.metrics.empty() && a.x.empty() && a.field.empty()) {
     if (a.normalize || !a.range.empty())
-      throw InputError("--normalize and --range are of other tables, and " + a.input +
+      throw InputError("--normalize and --range are of other tables, and " + input.path +
                        " is one of an ensemble's residues");
-    const StatePlot plot = group_plot(table, a.kind == "bars", static_cast<std::size_t>(a.top), a.title);
-    write_picture(a.output, a.kind == "bars" ? state_bars_script(plot, format) : state_scatter_script(plot, format));
-    return 0;
+    const StatePlot plot = with_shared_range(a, input, groups_of);
+    return a.kind == "bars" ? state_bars_script(plot, format) : state_scatter_script(plot, format);
   }
   if (!a.field.empty())
-    throw InputError("--field is of a comparison's residues, and " + a.input + " is no table of them");
-  if (!is_json && is_residue_table(table)) {
-    if (a.normalize || !a.metrics.empty() || !a.x.empty())
-      throw InputError("--normalize, --metric and --x are for lines, and " + a.input + " is a table of residues");
-    FrameMap map = residue_map(table);
-    std::tie(map.low, map.high) = chosen_range(a);
-    write_picture(a.output, frame_map_script(map, format));
-    return 0;
+    throw InputError("--field is of a comparison's residues, and " + input.path + " is no table of them");
+  if (!input.is_json && is_residue_table(input.table)) {
+    FrameMap map = with_shared_range(a, input, frame_map_of);
+    if (!a.range.empty()) std::tie(map.low, map.high) = chosen_range(a);
+    return frame_map_script(map, format);
   }
-  if (!is_json && is_cause_table(table)) {
-    if (a.normalize || !a.metrics.empty() || !a.x.empty() || !a.range.empty())
-      throw InputError("--normalize, --metric, --x and --range are of other tables, and " + a.input +
-                       " is one of causes");
-    write_picture(a.output, cause_plot_script(cause_panels(table), format));
-    return 0;
-  }
-  if (!a.range.empty() || a.order != "given")
-    throw InputError("--range and --order are for heat maps; leave out --source, and give a matrix's OUT.json");
-  LinePlot plot = is_json ? one_against_all(a, read_matrix_json(a.input)) : along_table(a, table);
+  if (!input.is_json && is_cause_table(input.table)) return cause_plot_script(cause_panels(input.table), format);
+  if (!a.range.empty() || !a.range_of.empty() || a.order != "given")
+    throw InputError(
+        "--range, --range-of and --order are for heat maps; leave out --source, and give a matrix's OUT.json");
+  LinePlot plot = input.is_json ? one_against_all(a, read_matrix_json(input.path)) : along_table(a, input.table);
   if (a.no_marks) plot.trustworthy.clear();
   plot.normalized = a.normalize;
-  write_picture(a.output, line_plot_script(plot, format));
+  return line_plot_script(plot, format);
+}
+
+int plot_verb(const PlotArguments& a, const Context&) {
+  const PictureFormat format = picture_format(a.output);
+  const PlotInput input = plot_input(a.causes ? cause_table_of(a.input) : a.input);
+  std::vector<std::string> inputs = {input.path};
+  for (const std::string& other : a.range_of) inputs.push_back(file_to_plot(other));
+  check_outputs(inputs, {a.output}, a.overwrite);
+  write_picture(a.output, plot_script(a, input, format));
   return 0;
 }
 
@@ -350,6 +336,7 @@ Verb add_plot(CLI::App& app) {
   parser->add_option("--range", a->range, "Ends of the colours (default: range off the diagonal)")
       ->expected(2)
       ->group("Heat map");
+  add_range_of(*parser, a->range_of);
   parser->add_option("--source", a->source, "Label of the variant to draw against all others")->group("Lines");
   parser->add_flag("--both-ways", a->both_ways, "Mean of both directions, with bars that reach to each")
       ->group("Lines");

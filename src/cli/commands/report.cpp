@@ -53,12 +53,7 @@ Verb add_report(CLI::App& app) {
   parser->add_option("-o,--output", a->output, "Page to write; default: OUT.html")->type_name("FILE");
   add_overwrite(*parser, a->overwrite);
   parser->add_option("--title", a->title, "Heading; default: the names of both structures or groups, or OUT");
-  parser
-      ->add_option(
-          "--range-of", a->range_of,
-          "One scale for a study: the widest automatic range of this result and of these, by prefix or OUT.vtp")
-      ->delimiter(',')
-      ->type_name("RESULT,...");
+  add_range_of(*parser, a->range_of);
   set_help(*parser, {"",
                      {"espdiff report ldh -o ldh.html --title 'LDH, double mutant against wild type'",
                       "espdiff report adk.csv"}});

@@ -16,6 +16,7 @@
 #include "io/files/sha256.h"
 #include "io/frames/molfile_plugins.h"
 #include "io/structures/structure_file.h"
+#include "mapping/map_recipe.h"
 #include "options/settings.h"
 #include "prepare/load_state.h"
 #include "prepare/surface_radii.h"
@@ -168,7 +169,10 @@ void EnsembleInputs::load_references() {
                      (potential_.because().empty() ? std::string() : ", and " + potential_.because()) +
                      "; give charges (" + option("charges") + " GROUP=FILE.pqr, or PQR files)");
   plan_.potential = potential_.in_words();
-  plan_.potential_unit = to_string(PotentialUnit::kKtPerE);
+  const bool in_vacuum = std::any_of(references_.begin(), references_.end(), [&](const auto& reference) {
+    return is_vacuum(potential_.map_of(reference.second).recipe());
+  });
+  plan_.potential_unit = to_string(PotentialUnit::kKtPerE) + (in_vacuum ? kInVacuum : "");
 }
 
 std::vector<std::string> EnsembleInputs::files() const {

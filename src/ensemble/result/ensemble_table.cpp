@@ -1,6 +1,7 @@
 // ensemble_table.cpp: the printed answer.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -10,6 +11,8 @@
 #include "ensemble/file/ensemble_file.h"
 #include "ensemble/result/ensemble_result.h"
 #include "ensemble/result/write_ensemble.h"
+#include "mapping/map_recipe.h"
+#include "report/records/record.h"
 #include "report/sections/placement.h"
 
 namespace espdiff {
@@ -114,7 +117,8 @@ void print_patches(std::ostream& out, const EnsembleResult& result, const std::s
       of_runs(result), result.options.alpha, result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t",
       result.test.smallest_p);
   if (result.patches.empty()) return;
-  out << formatted("%-6s %9s %12s %20s %8s  %s\n", "patch", "area (A2)", ("diff." + in_brackets(unit)).c_str(),
+  const std::string in_column = is_in_vacuum(unit) ? unit.substr(0, unit.size() - std::strlen(kInVacuum)) : unit;
+  out << formatted("%-6s %9s %12s %20s %8s  %s\n", "patch", "area (A2)", ("diff." + in_brackets(in_column)).c_str(),
                    formatted("%.0f %% interval", confidence).c_str(), "p", "residues");
   constexpr std::size_t kMost = 10;
   for (std::size_t k = 0; k < std::min(kMost, result.patches.size()); ++k) {

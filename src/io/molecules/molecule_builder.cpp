@@ -129,7 +129,6 @@ void MoleculeBuilder::add(const AtomEntry& entry) {
 }
 
 void MoleculeBuilder::add(const AtomEntry& entry, double charge, double radius) {
-  constexpr double kLargestCharge = 1e6, kLargestRadius_A = 1000;
   if (!(std::abs(charge) <= kLargestCharge)) {
     throw FormatError(path_, entry.line,
                       "charge of atom '" + entry.name + "' is " + formatted(charge) +

@@ -13,6 +13,9 @@
 
 namespace espdiff {
 
+/// What an atom can have: elementary charges of either sign, Angstrom.
+inline constexpr double kLargestCharge = 1e6, kLargestRadius_A = 1000;
+
 /// Atoms of a molecule at most: beyond it lattices and surfaces no longer fit into a workstation's memory.
 constexpr std::size_t kMostAtoms = 5'000'000;
 

@@ -19,8 +19,6 @@
 namespace espdiff {
 namespace {
 
-constexpr double kMostCharge = 1e6, kMostRadius_A = 1000;
-
 void check_count(const std::string& path, long line, long long n) {
   if (n >= 1 && n <= static_cast<long long>(kMostAtoms)) return;
   throw FormatError(
@@ -69,7 +67,7 @@ void read_psf(const std::string& text, Topology& topology, MoleculeBuilder* buil
       if (atom.size() < 8 || !parse_number(atom[6], charge))
         cursor.fail("a PSF atom is " + in_quotes(line) +
                     "; number, segment, residue number, residue, atom, type, charge and mass were expected");
-      check_range(topology.path, cursor.line(), "the charge", charge, -kMostCharge, kMostCharge);
+      check_range(topology.path, cursor.line(), "the charge", charge, -kLargestCharge, kLargestCharge);
       topology.names.emplace_back(atom[4]);
       topology.charges.push_back(static_cast<float>(charge));
       if (builder != nullptr) builder->add(psf_entry(atom, cursor.line()));
@@ -164,9 +162,9 @@ void read_prmtop(const std::string& text, Topology& topology) {
   check_count(path, pointers.line, n);
   const auto n_atoms = static_cast<std::size_t>(n);
   topology.charges =
-      numbers_of(path, "CHARGE", sections["CHARGE"], n_atoms, 1 / kAmberCharge, -kMostCharge, kMostCharge);
+      numbers_of(path, "CHARGE", sections["CHARGE"], n_atoms, 1 / kAmberCharge, -kLargestCharge, kLargestCharge);
   if (sections.count("RADII") > 0)
-    topology.radii = numbers_of(path, "RADII", sections["RADII"], n_atoms, 1, 0, kMostRadius_A);
+    topology.radii = numbers_of(path, "RADII", sections["RADII"], n_atoms, 1, 0, kLargestRadius_A);
   if (names.fields.size() < n_atoms)
     throw FormatError(path, names.line,
                       "%FLAG ATOM_NAME has " + std::to_string(names.fields.size()) + " names for " +
