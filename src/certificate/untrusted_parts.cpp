@@ -33,7 +33,7 @@ const char* in_words(std::size_t why) {
     case Why::kOtherResidue: return "on another residue";
     case Why::kDisagrees: return "its difference is not that of its own surfaces";
     case Why::kNoPotential: return "without a potential";
-    case Why::kTurned: return "turned off its atoms";
+    case Why::kTurned: return "turned away from its atoms";
     case Why::kTrusted: break;
   }
   return "trusted";

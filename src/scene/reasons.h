@@ -20,7 +20,7 @@ struct DrawnReason {
   Rgb colour;         ///< distinct for red-green and blue-yellow deficient vision (M. Okabe and K. Ito, 2008)
 };
 
-/// "trusted" first, and last what is trusted although its side chain turned off its atoms.
+/// "trusted" first, and last what is trusted although its side chain turned away from its atoms.
 extern const std::array<DrawnReason, kNumberOfDrawnReasons> kDrawnReasons;
 
 /// Codes of why triangles are not trusted, and of what turned at vertices, as in OUT.vtp.

@@ -20,7 +20,7 @@ struct SurfaceFile {
   std::vector<Triangle> triangles;
   std::vector<std::uint8_t> untrusted;  ///< [triangle] matched and not trusted
   std::vector<std::uint8_t> why;        ///< [triangle] code of why it is not trusted; empty in older files
-  std::vector<std::uint8_t> turned;     ///< [vertex] nonzero where it turned off its atoms; empty in older files
+  std::vector<std::uint8_t> turned;     ///< [vertex] nonzero where it turned away from its atoms; empty in older files
   std::vector<std::uint8_t> unmatched;  ///< [triangle] 1: its mapped positions are meaningless
   std::vector<float> displacement;      ///< Angstrom
   std::vector<float> slip;              ///< Angstrom; NaN where it is not known; empty in files of older versions

@@ -150,7 +150,7 @@ def test_tables(result):
 
 def test_html(result):
     text = result._repr_html_()
-    assert "TRUSTWORTHY ON 78 %: mean absolute difference" in text and "Mean absolute difference" in text
+    assert "TRUSTWORTHY ON 58 %: mean absolute difference" in text and "Mean absolute difference" in text
     assert text.count("data:image/png;base64,") == 2 and "kT/e: target minus source" in text
     untrusted = pickle.loads(pickle.dumps(result))
     record = untrusted._core.record
