@@ -38,6 +38,7 @@ class Options(TypedDict, total=False):
     side_chain_seed: int
     fields: Dict[str, Any]
     patches_of: Union[str, List[str]]
+    interface: str
     offset: str
     temperature: float
     trust_maps: bool

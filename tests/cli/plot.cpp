@@ -161,16 +161,16 @@ TEST_CASE("plots of a study have the widest range of all its results") {
   const std::string two = folder.write("two.json", json.dump());
   CHECK_FALSE(contains(drawn(one + " --metric rmsd_A"), "> 700<"));
   CHECK(contains(drawn(one + " --metric rmsd_A --range-of " + two), "> 700<"));
-  for (const auto& [arguments, error] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& refused : std::vector<std::pair<std::string, std::string>>{
            {narrow + " --range-of " + volts, "results that share a scale have one unit"},
            {narrow + " --range-of " + one, "is no comparison's; --range-of takes results of one kind"},
            {one + " --range-of " + narrow, "is no matrix; --range-of takes results of one kind"},
            {one + " --range 0 1 --range-of " + two, "--range-of and --range exclude each other"},
            {one + " --source m0 --range-of " + two, "--range, --range-of and --order are for heat maps"},
            {narrow + " --range-of " + folder.file("none"), "none: "}}) {
-    const Outcome wrong = run_espdiff("plot " + arguments + " -o " + folder.file("y.svg"));
-    CHECK_MESSAGE(wrong.status == 2, arguments);
-    CHECK_MESSAGE(contains(wrong.err, error), wrong.err);
+    const Outcome wrong = run_espdiff("plot " + refused.first + " -o " + folder.file("y.svg"));
+    CHECK_MESSAGE(wrong.status == 2, refused.first);
+    CHECK_MESSAGE(contains(wrong.err, refused.second), wrong.err);
   }
 }
 

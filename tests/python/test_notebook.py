@@ -30,4 +30,4 @@ def test_the_notebook_runs(monkeypatch, capsys):
     assert "LYS" in residues and "1.56" in residues
     assert wrong == "" and "there is no option ofset; did you mean offset?" in capsys.readouterr().out
     assert again.startswith("(True, 'TRUSTWORTHY")
-    assert "TRUSTWORTHY: all 2 pairs on 7" in matrix
+    assert "TRUSTWORTHY: all 2 pairs on 5" in matrix

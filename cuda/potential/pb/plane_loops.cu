@@ -60,12 +60,12 @@ ESPDIFF_MULTIVERSION void apply_row(const OperatorRow& a, std::size_t nx, const 
 }
 
 /// The terms of A x in double precision, for x in one or two parts.
-template <bool kTwoParts>
+template <bool TwoParts>
 ESPDIFF_INLINE void subtract_row(const OperatorRow& a, std::size_t nx, std::size_t plane, const float* x,
                                  const float* low, float* r) {
   const OperatorRow of = a;
   const auto whole = [=](std::size_t p) ESPDIFF_INLINE_LAMBDA {
-    if constexpr (kTwoParts) return static_cast<double>(x[p]) + static_cast<double>(low[p]);
+    if constexpr (TwoParts) return static_cast<double>(x[p]) + static_cast<double>(low[p]);
     return static_cast<double>(x[p]);
   };
 #pragma GCC ivdep

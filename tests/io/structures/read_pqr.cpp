@@ -108,9 +108,8 @@ TEST_CASE("read_pqr: lines that cannot be distinguished are refused with their l
   CHECK(pqr_error("REMARK\nATOM 1 N MET A 1 1.0 2.0 3.0 0.5\n") ==
         "f.pqr:2: this PQR line cannot be read: by blanks, the residue number is 'A'; by columns, the line is too "
         "short for PDB "
-        "columns; expected: record, serial, atom, residue, [chain,] number, x, y, z, charge, radius, finite and parted "
-        "by "
-        "blanks");
+        "columns; expected: record, serial, atom, residue, [chain,] number, x, y, z, charge, radius, finite and "
+        "separated by blanks");
   CHECK(contains(pqr_error("ATOM 1 N MET 1 1 2 3\n"), "f.pqr:1: this PQR line cannot be read: by blanks, 8 fields"));
   CHECK(contains(pqr_error("ATOM 1 N MET A 1 1.0 nan 3.0 0.5 1.0\n"), "by blanks, the y coordinate is 'nan'"));
   CHECK(contains(pqr_error("ATOM 1 N MET A 1 1.0 2.0 3.0 inf 1.0\n"), "by blanks, the charge is 'inf'"));
