@@ -125,6 +125,8 @@ class MatrixOptions(Options, total=False):
 class EnsembleOptions(Options, total=False):
     """The same of ensemble()."""
 
+    charges: Dict[str, str]
+    maps: Dict[str, str]
     map_unit: str
     map_array: str
     frames: str

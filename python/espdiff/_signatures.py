@@ -74,7 +74,7 @@ def as_text(value):
         return "1" if value else "0"
     if isinstance(value, (list, tuple)):
         return ",".join(as_text(entry) for entry in value)
-    return repr(value) if isinstance(value, float) else str(value)
+    return repr(float(value)) if isinstance(value, float) else str(value)  # NumPy's numbers have a repr of their own
 
 
 def takes_options(function=None, *, groups=None, besides=()):
@@ -127,9 +127,10 @@ def typed_options():
     lines += _typed_class("Options(TypedDict, total=False)",
                           "What **options of compare() and its like stands for; `espdiff.help_options()` explains them.",
                           option_rows())
-    for study in ("matrix", "ensemble"):
+    groups = [{"name": name, "kind": "named"} for name in ("charges", "maps")]
+    for study, besides in (("matrix", []), ("ensemble", groups)):
         lines += _typed_class(f"{study.capitalize()}Options(Options, total=False)", f"The same of {study}().",
-                              study_rows(study))
+                              besides + study_rows(study))
     return "\n".join(lines) + "\n"
 
 

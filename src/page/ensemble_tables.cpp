@@ -182,7 +182,8 @@ EnsembleNames names_of(const TableJson& record, const VtpContent& surface) {
 void add_verdict(TableJson& page, const TableJson& record) {
   const TableJson& equilibrium = record.at("equilibrium");
   const std::string conclusion = record.at("conclusion").get<std::string>();
-  page["verdict"] = {{"trustworthy", equilibrium.at("holds").get<bool>()},
+  const bool concludes = !record.contains("test") || record.at("test").at("no_p_because").is_null();
+  page["verdict"] = {{"trustworthy", concludes && equilibrium.at("holds").get<bool>()},
                      {"text", conclusion.empty() ? "One group: nothing is compared" : with_capital(conclusion)},
                      {"reasons", equilibrium.at("reasons")}};
   page["warnings"] = record.at("warnings");

@@ -15,7 +15,7 @@ constexpr int kReasonRounds = 4;
 constexpr std::size_t kTurnedSideChain = 8;
 /// By the code in OUT.vtp (`why`): trusted, unmatched, corrupt, unpaired, slipped, on another residue, disagrees,
 /// without a potential, turned.
-constexpr std::array<std::size_t, 9> kReasonOfCode = {0, kNumberOfDrawnReasons, 5, 6, 1, 2, 4, 7, 3};
+constexpr std::array<std::size_t, kNumberOfReasonCodes> kReasonOfCode = {0, kNumberOfDrawnReasons, 5, 6, 1, 2, 4, 7, 3};
 
 }  // namespace
 

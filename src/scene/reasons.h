@@ -13,6 +13,8 @@ namespace espdiff {
 
 /// What a matched triangle is drawn as, in the order of kDrawnReasons; unmatched ones are hatched.
 constexpr std::size_t kNumberOfDrawnReasons = 9;
+/// Codes of OUT.vtp (`why`) are below this.
+constexpr std::size_t kNumberOfReasonCodes = 9;
 
 struct DrawnReason {
   const char* key;    ///< as in OUT.json

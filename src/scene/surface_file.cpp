@@ -115,7 +115,7 @@ void read_arrays(SurfaceFile& file, const VtpContent& surface) {
   file.unmatched = flags_of(surface, "no_counterpart");
   if (const VtpNumbers* const why = find_array(surface.cell_arrays, "why"); why != nullptr && why->n_components == 1) {
     for (const double code : why->values)
-      file.why.push_back(static_cast<std::uint8_t>(code >= 0 && code < 9 ? code : 0));
+      file.why.push_back(static_cast<std::uint8_t>(code >= 0 && code < kNumberOfReasonCodes ? code : 0));
   }  // files of older versions lack it
   for (const float turn : numbers_of(surface, "turned")) file.turned.push_back(turn > 0 ? 1 : 0);
   for (std::size_t t = 0; t < file.why.size(); ++t) file.untrusted[t] = file.why[t] != 0 && file.is_matched(t) ? 1 : 0;

@@ -66,6 +66,17 @@ TEST_CASE("an ensemble's page has the surface with p, the patches, their series,
   CHECK(contains(names, "potential_difference potential_source potential_target p_family_wise"));
 }
 
+TEST_CASE("the verdict on a page is that of an answer where replicates suffice for one, and of none where not") {
+  if (!can_draw()) return;
+  const auto verdict = [](const PlantedResult& planted) {
+    return nlohmann::json::parse(element(ensemble_page(planted.prefix, ""), "record")).at("verdict");
+  };
+  CHECK(verdict(PlantedResult(6)).at("trustworthy") == true);
+  const auto of_few = verdict(PlantedResult(6, 2));  // 15 permutations
+  CHECK(contains(of_few.at("text").get<std::string>(), "NO CONCLUSION"));
+  CHECK(of_few.at("trustworthy") == false);
+}
+
 TEST_CASE("one group has a page of its mean, without patches and significance") {
   if (!can_draw()) return;
   const PlantedResult planted(0, 0);

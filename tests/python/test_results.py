@@ -39,6 +39,12 @@ def test_signatures_name_every_option():
     assert "alpha" in inspect.signature(espdiff.ensemble).parameters
 
 
+def test_numbers_of_numpy_are_numbers():
+    from espdiff._signatures import as_text
+
+    assert [as_text(value) for value in (0.1, np.float64(0.1), np.float32(0.5), np.int64(3), True)] == ["0.1", "0.1", "0.5", "3", "1"]
+
+
 def test_typed_options_follow_the_table():
     from espdiff import _signatures
 

@@ -20,6 +20,7 @@ struct OperatorRow {
   const float* diagonal;  ///< of the inner points
 };
 
+/// Gives the rows of one operator, plane after plane. Not for several threads at once: each has its own.
 class OperatorRows {
  public:
   /// @param of must outlive this object
