@@ -170,7 +170,7 @@ int main(int argc, char** argv) {
   try {
     return run(a);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "espdiff_frames: %s\n", error.what());
+    std::fprintf(stderr, "espdiff_adk_frames: %s\n", error.what());
     return 1;
   }
 }
