@@ -49,6 +49,7 @@ multiply_and_add(float factor, float summand) {
 }  // namespace
 
 MachinePeak cpu_peak(int n_threads) {
+  const int usual = omp_get_max_threads();
   omp_set_num_threads(n_threads);
   const long n = static_cast<long>(kElements);
   const std::unique_ptr<float[]> a(new float[kElements]), b(new float[kElements]), c(new float[kElements]);
@@ -68,6 +69,7 @@ MachinePeak cpu_peak(int n_threads) {
 #pragma omp parallel
     results[static_cast<std::size_t>(omp_get_thread_num())] = multiply_and_add(0.999F, 0.5F);
   });
+  omp_set_num_threads(usual);
   const double lanes = sizeof(Lanes) / sizeof(float);
   MachinePeak peak;
   peak.gigabytes_per_s = 12.0 * static_cast<double>(kElements) / triad * 1e-9;

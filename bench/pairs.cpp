@@ -27,7 +27,7 @@ using namespace espdiff_bench;
 
 struct Settings {
   std::vector<std::pair<std::string, std::string>> given;  // options of the comparison, by name
-  std::string csv;
+  std::string csv, device = "cpu";
   std::vector<std::string> only;
   int threads = 0, repeats = 1;
   bool all_ubiquitin = false, all_adk = false, skip_series = false;
@@ -43,6 +43,7 @@ void define_options(CLI::App& app, Settings& s) {
         ->group(setting.group);
   }
   app.add_option("--threads", s.threads, "CPU threads; 0 uses all")->capture_default_str();
+  app.add_option("--device", s.device, "cpu, or cuda")->capture_default_str()->check(CLI::IsMember({"cpu", "cuda"}));
   app.add_option("--repeats", s.repeats, "Times are medians of this many runs")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -81,7 +82,8 @@ void print_group(const std::string& group, const std::vector<PairRow>& rows) {
 
 int run(const Settings& settings) {
   const espdiff::CompareOptions options = espdiff::make_options(settings.given);
-  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, settings.threads);
+  const auto engine = espdiff::select_engine(
+      settings.device == "cuda" ? espdiff::DeviceChoice::kCuda : espdiff::DeviceChoice::kCpu, settings.threads);
   std::ofstream csv;
   if (!settings.csv.empty()) {
     csv.open(settings.csv);

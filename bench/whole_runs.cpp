@@ -1,4 +1,4 @@
-// whole_runs.cpp: makes the variants and charges, and times the matrix and PME on them.
+// whole_runs.cpp: makes the variants and charges, and times the matrix, PME and Poisson-Boltzmann on them.
 #include "whole_runs.h"
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "engine/engine.h"
+#include "engine/poisson_boltzmann.h"
 #include "io/structures/read_structure.h"
 #include "matrix/matrix.h"
 #include "options/options.h"
@@ -58,6 +59,30 @@ void pme(StageTimer& timer, espdiff::Engine& engine, std::size_t n_atoms, double
   timer.counters["atoms"] = static_cast<double>(n_atoms);
 }
 
+/// A cube of n^3 points that leaves 12 A around T4 lysozyme, by the default options.
+void poisson_boltzmann(StageTimer& timer, espdiff::Engine& engine, const std::string& file, int n) {
+  constexpr double kPadding_A = 12;
+  const espdiff::Molecule m = espdiff::read_structure(file);
+  double spacing = 0.1;
+  espdiff::Lattice lattice;
+  do {
+    spacing *= 1.01;
+    lattice = espdiff::poisson_boltzmann_lattice(m.positions, m.radii, spacing, kPadding_A);
+  } while (*std::max_element(lattice.size.begin(), lattice.size.end()) > n);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lattice.origin[static_cast<int>(axis)] -= 0.5 * spacing * (n - lattice.size[axis]);
+    lattice.size[axis] = n;
+  }
+  espdiff::PoissonBoltzmannReport report;
+  timer.time(engine, [&] {
+    engine.poisson_boltzmann(m.positions, m.radii, m.charges, lattice, espdiff::PoissonBoltzmannOptions{}, {}, nullptr,
+                             {}, &report);
+  });
+  timer.counters["spacing_A"] = spacing;
+  timer.counters["cycles"] = report.cycles;
+  timer.counters["residual"] = report.relative_residual;
+}
+
 }  // namespace
 
 std::vector<WholeRun> whole_runs() {
@@ -65,6 +90,13 @@ std::vector<WholeRun> whole_runs() {
       {"pme_50k/80", [](StageTimer& t, espdiff::Engine& e) { pme(t, e, 50000, 80, 80); }, false},
       {"pme_1m/216", [](StageTimer& t, espdiff::Engine& e) { pme(t, e, 1000000, 216, 216); }, false},
   };
+  const std::string lysozyme = data_folder() + "/pair_t4l_maps/3lzm.pqr";
+  if (std::filesystem::exists(lysozyme)) {
+    all.push_back(
+        {"pb_97/3lzm", [=](StageTimer& t, espdiff::Engine& e) { poisson_boltzmann(t, e, lysozyme, 97); }, false});
+    all.push_back(
+        {"pb_257/3lzm", [=](StageTimer& t, espdiff::Engine& e) { poisson_boltzmann(t, e, lysozyme, 257); }, true});
+  }
   const std::string file = data_folder() + "/ref_apbs/1tca.pqr";
   if (std::filesystem::exists(file))
     all.push_back({"matrix_19/1tca", [=](StageTimer& t, espdiff::Engine& e) { matrix(t, e, file, 19); }, true});

@@ -1,4 +1,4 @@
-// whole_runs.h: benchmarks beyond one pair: the matrix of many variants, and potentials by PME.
+// whole_runs.h: benchmarks beyond one pair: the matrix of many variants, and potentials by PME and Poisson-Boltzmann.
 #pragma once
 
 #include <functional>

@@ -33,7 +33,11 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
+#if defined(ESPDIFF_BACKEND_CUDA)
+constexpr std::size_t kReductionChunk = 512;  // enough blocks for a large GPU from a surface's 40,000 vertices
+#else
 constexpr std::size_t kReductionChunk = 2048;
+#endif
 
 struct IndexRange {
   std::size_t begin, end;

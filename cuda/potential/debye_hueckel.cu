@@ -23,18 +23,16 @@ struct BorderCharges {
 };
 constexpr std::size_t kLanes = 16;
 
-ESPDIFF_INLINE float border_sum(const BorderCharges& c, float px, float py, float pz) {
-  float sums[kLanes] = {};
-  for (std::size_t first = 0; first < c.n; first += kLanes) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const std::size_t i = first + lane;
-      const float dx = px - c.x[i], dy = py - c.y[i], dz = pz - c.z[i];
-      const float r = sqrtf(larger(dx * dx + dy * dy + dz * dz, 0.25F));
-      sums[lane] += c.strength[i] * exp_of_negative(larger(-c.kappa * r, -80.0F)) / r;
-    }
-  }
+/// Potential of charge i at a point.
+ESPDIFF_INLINE float border_term(const BorderCharges& c, std::size_t i, const Vec3f& p) {
+  const float dx = p.x - c.x[i], dy = p.y - c.y[i], dz = p.z - c.z[i];
+  const float r = sqrtf(larger(dx * dx + dy * dy + dz * dz, 0.25F));
+  return c.strength[i] * exp_of_negative(larger(-c.kappa * r, -80.0F)) / r;
+}
+
+ESPDIFF_INLINE float sum_of_lanes(const float* sums) {
   double sum = 0;
-  for (const float s : sums) sum += static_cast<double>(s);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) sum += static_cast<double>(sums[lane]);
   return static_cast<float>(sum);
 }
 
@@ -62,10 +60,7 @@ struct BorderSums {
   int stride;
   float* values;
 
-  ESPDIFF_INLINE void at(std::size_t index) const {
-    const Vec3f p = face.coarse_point(index, stride);
-    values[index] = border_sum(charges, p.x, p.y, p.z);
-  }
+  ESPDIFF_INLINE Vec3f point(std::size_t index) const { return face.coarse_point(index, stride); }
 };
 
 /// The border's points as charges, summed at the atoms.
@@ -74,25 +69,56 @@ struct AtomSums {
   const Vec3f* atoms;
   float* values;
 
-  ESPDIFF_INLINE void at(std::size_t index) const {
-    values[index] = border_sum(charges, atoms[index].x, atoms[index].y, atoms[index].z);
-  }
+  ESPDIFF_INLINE Vec3f point(std::size_t index) const { return atoms[index]; }
 };
 
-#if !defined(__CUDACC__)
+#if defined(__CUDACC__)
+
+/// A thread for each lane of a point: the same sums as on the CPU.
+template <typename Sums>
+__global__ void __launch_bounds__(kThreadsPerBlock) sum_lanes_kernel(std::size_t n, Sums sums) {
+  __shared__ float of_lane[kThreadsPerBlock];
+  const std::size_t lane = threadIdx.x % kLanes,
+                    index = (static_cast<std::size_t>(blockIdx.x) * kThreadsPerBlock + threadIdx.x) / kLanes;
+  float sum = 0;
+  if (index < n) {
+    const Vec3f p = sums.point(index);
+    for (std::size_t i = lane; i < sums.charges.n; i += kLanes) sum += border_term(sums.charges, i, p);
+  }
+  of_lane[threadIdx.x] = sum;
+  __syncthreads();
+  if (lane == 0 && index < n) sums.values[index] = sum_of_lanes(of_lane + threadIdx.x);
+}
+
+#else
+
+template <typename Sums>
+ESPDIFF_INLINE void sum_points_inline(const Sums& in, std::size_t begin, std::size_t end) {
+  for (std::size_t index = begin; index < end; ++index) {
+    const Vec3f p = in.point(index);
+    float of_lane[kLanes] = {};
+    for (std::size_t first = 0; first < in.charges.n; first += kLanes) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) of_lane[lane] += border_term(in.charges, first + lane, p);
+    }
+    in.values[index] = sum_of_lanes(of_lane);
+  }
+}
 ESPDIFF_MULTIVERSION void sum_points(const BorderSums& sums, std::size_t first, std::size_t last) {
-  for (std::size_t i = first; i < last; ++i) sums.at(i);
+  sum_points_inline(sums, first, last);
 }
 ESPDIFF_MULTIVERSION void sum_points(const AtomSums& sums, std::size_t first, std::size_t last) {
-  for (std::size_t i = first; i < last; ++i) sums.at(i);
+  sum_points_inline(sums, first, last);
 }
 #endif
 
-/// sums.at() of the indices below n.
+/// The sums at the indices below n.
 template <typename Sums>
 void run_sums(const Sums& sums, std::size_t n) {
 #if defined(__CUDACC__)
-  for_each_index(n, [=] ESPDIFF_HD(std::size_t i) { sums.at(i); });
+  if (n == 0) return;
+  const std::size_t n_blocks = (n * kLanes + kThreadsPerBlock - 1) / kThreadsPerBlock;
+  sum_lanes_kernel<<<static_cast<unsigned>(n_blocks), kThreadsPerBlock, 0, CudaContext::current()->stream()>>>(n, sums);
+  check_cuda(cudaGetLastError(), "starting a sum");
 #else
   constexpr std::size_t kRun = 16;
   for_each_index((n + kRun - 1) / kRun,

@@ -11,6 +11,59 @@ constexpr float kArcSpacing_A = 0.2F;
 constexpr float kTwoPi = 6.28318531F;
 constexpr int kMostArcs = 24;
 
+ESPDIFF_INLINE float squared_distance(const AtomCellsView& cells, std::uint32_t a, std::uint32_t b) {
+  const float dx = cells.x[b] - cells.x[a], dy = cells.y[b] - cells.y[a], dz = cells.z[b] - cells.z[a];
+  return dx * dx + dy * dy + dz * dz;
+}
+
+/// The atom whose neighbour list has the entry.
+ESPDIFF_INLINE std::uint32_t owner_of(const std::uint32_t* first, std::uint32_t n_atoms, std::uint32_t entry) {
+  std::uint32_t low = 0, high = n_atoms;
+  while (high - low > 1) {
+    const std::uint32_t middle = low + (high - low) / 2;
+    if (first[middle] <= entry) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+
+/// Sorts each atom's list, nearest first; neighbours at the same distance keep their order. A thread for each entry
+/// counts those before it.
+void sort_nearest_first(const AtomCellsView& cells, std::uint32_t n_atoms, const std::uint32_t* first,
+                        Buffer<std::uint32_t>& list) {
+  Buffer<std::uint32_t> sorted(list.size());
+  const std::uint32_t* const from = raw(list);
+  std::uint32_t* const to = raw(sorted);
+  for_each_index(list.size(), [=] ESPDIFF_HD(std::size_t index) {
+    const std::uint32_t entry = static_cast<std::uint32_t>(index), a = owner_of(first, n_atoms, entry);
+    const float square = squared_distance(cells, a, from[entry]);
+    std::uint32_t rank = 0;
+    for (std::uint32_t other = first[a]; other < first[a + 1]; ++other) {
+      const float of_other = squared_distance(cells, a, from[other]);
+      if (of_other < square || (of_other == square && other < entry)) ++rank;
+    }
+    to[first[a] + rank] = from[entry];
+  });
+  list.swap(sorted);
+}
+
+#else
+
+/// Puts atom b at the place `at` of a's list, or before those that are farther away.
+ESPDIFF_INLINE void insert_nearest_first(const AtomCellsView& cells, std::uint32_t a, std::uint32_t b, float square,
+                                         std::uint32_t* list, std::uint32_t at) {
+  for (; at > 0 && squared_distance(cells, a, list[at - 1]) > square; --at) list[at] = list[at - 1];
+  list[at] = b;
+}
+
+#endif
+
+/// Nearest first, because they cover most.
 void find_neighbours(ProbeAtoms& atoms, float max_radius) {
   const AtomCellsView cells = atoms.cells->view();
   const float* const radius = raw(atoms.radius);
@@ -23,19 +76,14 @@ void find_neighbours(ProbeAtoms& atoms, float max_radius) {
     visit_atom_runs(cells, p, radius[a] + max_radius, [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t b = begin; b < end; ++b) {
         if (b == a) continue;
-        const float dx = cells.x[b] - p.x, dy = cells.y[b] - p.y, dz = cells.z[b] - p.z;
-        const float square = dx * dx + dy * dy + dz * dz, reach = radius[a] + radius[b];
+        const float square = squared_distance(cells, a, b), reach = radius[a] + radius[b];
         if (square >= reach * reach) continue;
         if (out != nullptr) {
-          // Nearest first: they cover most.
-          std::uint32_t at = found;
-          for (; at > 0; --at) {
-            const std::uint32_t c = out[at - 1];
-            const float cx = cells.x[c] - p.x, cy = cells.y[c] - p.y, cz = cells.z[c] - p.z;
-            if (cx * cx + cy * cy + cz * cz <= square) break;
-            out[at] = c;
-          }
-          out[at] = b;
+#if defined(ESPDIFF_BACKEND_CUDA)
+          out[found] = b;
+#else
+          insert_nearest_first(cells, a, b, square, out, found);
+#endif
         }
         ++found;
       }
@@ -49,6 +97,9 @@ void find_neighbours(ProbeAtoms& atoms, float max_radius) {
   std::uint32_t* const neighbour = raw(atoms.neighbour);
   for_each_index(
       n, [=] ESPDIFF_HD(std::size_t a) { visit_neighbours(static_cast<std::uint32_t>(a), neighbour + first[a]); });
+#if defined(ESPDIFF_BACKEND_CUDA)
+  sort_nearest_first(cells, static_cast<std::uint32_t>(n), first, atoms.neighbour);
+#endif
 }
 
 /// The circle in which the spheres of two atoms intersect.
@@ -151,17 +202,20 @@ ESPDIFF_INLINE std::uint32_t points_of(float angle, float radius) {
   return static_cast<std::uint32_t>(angle * radius / kArcSpacing_A) + 2U;
 }
 
-/// The atom whose neighbour list has the entry.
-ESPDIFF_INLINE std::uint32_t owner_of(const std::uint32_t* first, std::uint32_t n_atoms, std::uint32_t entry) {
-  std::uint32_t low = 0, high = n_atoms;
-  while (high - low > 1) {
+/// The place of atom b in a's list, which is sorted by distance.
+ESPDIFF_INLINE std::uint32_t entry_of(const AtomCellsView& cells, const ProbeAtomsView& view, std::uint32_t a,
+                                      std::uint32_t b) {
+  const float square = squared_distance(cells, a, b);
+  std::uint32_t low = view.first[a], high = view.first[a + 1];
+  while (low < high) {
     const std::uint32_t middle = low + (high - low) / 2;
-    if (first[middle] <= entry) {
-      low = middle;
+    if (squared_distance(cells, a, view.neighbour[middle]) < square) {
+      low = middle + 1;
     } else {
       high = middle;
     }
   }
+  while (view.neighbour[low] != b) ++low;
   return low;
 }
 
@@ -169,21 +223,28 @@ ESPDIFF_INLINE std::uint32_t owner_of(const std::uint32_t* first, std::uint32_t 
 /// @param first_point [neighbour entry + 1] of the points on the entry's circle
 void find_exposed(ProbeAtoms& atoms, const Buffer<std::uint32_t>& first_point) {
   const ProbeAtomsView view = view_of(atoms);
+  const AtomCellsView cells = view.cells;
   const std::uint32_t* const first = raw(first_point);
+  const std::uint32_t n_atoms = static_cast<std::uint32_t>(atoms.radius.size());
+  constexpr std::uint8_t kHasPoints = 1, kLiesInside = 2;
+  Buffer<std::uint8_t> entries(atoms.neighbour.size());
+  std::uint8_t* const of_entry = raw(entries);
+  for_each_index(entries.size(), [=] ESPDIFF_HD(std::size_t index) {
+    const std::uint32_t entry = static_cast<std::uint32_t>(index), a = owner_of(view.first, n_atoms, entry),
+                        b = view.neighbour[entry];
+    const Vec3f way = view.centre(b) - view.centre(a);
+    // The atom of the lower index owns the circle.
+    const std::uint32_t at = b < a ? entry_of(cells, view, b, a) : entry;
+    const bool has_points = first[at + 1] > first[at],
+               lies_inside = !(sqrtf(dot(way, way)) + view.radius[b] > view.radius[a]);
+    of_entry[entry] = static_cast<std::uint8_t>((has_points ? kHasPoints : 0) | (lies_inside ? kLiesInside : 0));
+  });
   std::uint8_t* const exposed = raw(atoms.exposed);
-  for_each_index(atoms.radius.size(), [=] ESPDIFF_HD(std::size_t index) {
-    const std::uint32_t a = static_cast<std::uint32_t>(index);
+  for_each_index(n_atoms, [=] ESPDIFF_HD(std::size_t a) {
     bool has_points = false, holds_all = true;
     for (std::uint32_t entry = view.first[a]; entry < view.first[a + 1] && !has_points; ++entry) {
-      const std::uint32_t b = view.neighbour[entry];
-      const Vec3f way = view.centre(b) - view.centre(a);
-      if (sqrtf(dot(way, way)) + view.radius[b] > view.radius[a]) holds_all = false;
-      std::uint32_t at = entry;
-      if (b < a) {  // the other atom owns the circle
-        at = view.first[b];
-        while (view.neighbour[at] != a) ++at;
-      }
-      has_points = first[at + 1] > first[at];
+      has_points = (of_entry[entry] & kHasPoints) != 0;
+      holds_all = holds_all && (of_entry[entry] & kLiesInside) != 0;
     }
     exposed[a] = has_points || holds_all ? 1 : 0;
   });

@@ -9,8 +9,18 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Points that one thread takes one after the other: the triangle of the point before is a good guess.
+/// Points that one thread takes one after the other: the triangle of the point before is a good guess. A GPU has
+/// threads for all.
+#if defined(ESPDIFF_BACKEND_CUDA)
+constexpr std::size_t kRun = 1;
+#else
 constexpr std::size_t kRun = 32;
+#endif
+
+/// A triangle near a point, by their places: both follow the same curve through nearly the same box.
+ESPDIFF_INLINE std::uint32_t guess_at(std::size_t place, std::size_t n_points, std::size_t n_triangles) {
+  return static_cast<std::uint32_t>(place * (n_triangles - 1) / n_points);
+}
 
 #if !defined(__CUDACC__)
 
@@ -141,10 +151,7 @@ ESPDIFF_INLINE void search_block(const NearestSearch& in, std::size_t block, std
 }
 
 ESPDIFF_MULTIVERSION void search_blocks(const NearestSearch& in, std::size_t first, std::size_t last) {
-  // Points and triangles follow the same curve through nearly the same box.
-  const std::size_t n_triangles = in.tree.n_triangles;
-  std::uint32_t guess =
-      static_cast<std::uint32_t>(std::min(first * kBlock, in.points.n) * (n_triangles - 1) / in.points.n);
+  std::uint32_t guess = guess_at(std::min(first * kBlock, in.points.n), in.points.n, in.tree.n_triangles);
   for (std::size_t block = first; block < last; ++block) search_block(in, block, guess);
 }
 
@@ -161,7 +168,7 @@ Buffer<float> distances_point_by_point(const TriangleTree& tree, const Buffer<Ve
   const std::uint32_t* const list = raw(order);
   float* const distance = raw(distances);
   for_each_index((n + kRun - 1) / kRun, [=] ESPDIFF_HD(std::size_t run) {
-    std::uint32_t guess = 0;
+    std::uint32_t guess = guess_at(run * kRun, n, view.n_triangles);
     for (std::size_t i = run * kRun; i < (run + 1) * kRun && i < n; ++i) {
       const NearestTriangle nearest = nearest_triangle(view, x[list[i]].xyz(), guess);
       distance[list[i]] = sqrtf(nearest.squared_distance);

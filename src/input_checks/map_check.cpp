@@ -144,7 +144,10 @@ MapReferences::MapReferences(Engine& engine, const Molecule& molecule, const Rig
 MapReferences::Sums MapReferences::sum_charges() const {
   const std::vector<double> zero(points_.size(), 0);
   Sums sums{zero, zero, zero};
-  for (std::size_t i = 0; i < points_.size(); ++i) {
+  const auto n = static_cast<std::ptrdiff_t>(points_.size());
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t point = 0; point < n; ++point) {
+    const auto i = static_cast<std::size_t>(point);
     for (std::size_t a = 0; a < molecule_.size(); ++a) {
       const double q = static_cast<double>(molecule_.charges[a]);
       if (q == 0) continue;

@@ -62,20 +62,20 @@ struct AtomNeighbourhoods {
   }
 
   Vec3d turn(std::size_t i) const {
-    double all = 0;
-    Eigen::Vector3d sum_start = Eigen::Vector3d::Zero(), sum_end = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    // Of (1, a) and (1, b): the sum of weights, of both ends, and the covariance, as one matrix of whole vectors.
+    Eigen::Matrix4d sums = Eigen::Matrix4d::Zero();
     visit(i, [&](std::size_t j) {
       const Eigen::Vector3d a = start[j] - start[i], b = end[j] - end[i];
       const double share = 1 - std::max(a.squaredNorm(), b.squaredNorm()) / (kAtomReach_A * kAtomReach_A);
       if (share <= 0 || !same_motion(paths[i].motion, paths[j].motion)) return;
       const double weight = share * share;
-      all += weight;
-      sum_start += weight * a;
-      sum_end += weight * b;
-      covariance += weight * a * b.transpose();
+      const Eigen::Vector4d from = weight * Eigen::Vector4d(1, a.x(), a.y(), a.z()), to(1, b.x(), b.y(), b.z());
+      sums.noalias() += from * to.transpose();
     });
+    const double all = sums(0, 0);
     if (all <= 0) return {};
+    const Eigen::Vector3d sum_start = sums.col(0).tail<3>(), sum_end = sums.row(0).tail<3>().transpose();
+    Eigen::Matrix3d covariance = sums.bottomRightCorner<3, 3>();
     covariance += kAtomDamping_A2 * Eigen::Matrix3d::Identity() - sum_start * sum_end.transpose() / all;
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const double sign = svd.matrixV().determinant() * svd.matrixU().determinant() < 0 ? -1.0 : 1.0;

@@ -38,6 +38,17 @@ ESPDIFF_INLINE float coarse_face(const float* e, const GridSize& fine, int axis,
 void restrict_to(const GridSize& fine, const Buffer<float>& r, const GridSize& coarse, Buffer<float>& b) {
   const float* const from = raw(r);
   float* const to = raw(b);
+#if defined(ESPDIFF_BACKEND_CUDA)
+  const std::size_t nx = static_cast<std::size_t>(coarse.nx - 2), ny = static_cast<std::size_t>(coarse.ny - 2);
+  for_each_index(nx * ny * static_cast<std::size_t>(coarse.nz - 2), [=] ESPDIFF_HD(std::size_t index) {
+    const int i = static_cast<int>(index % nx) + 1, j = static_cast<int>(index / nx % ny) + 1,
+              k = static_cast<int>(index / (nx * ny)) + 1;
+    const std::size_t row = fine.row(), plane = fine.plane();
+    const float* const mid = from + fine.index(2 * i, 2 * j, 2 * k);
+    const auto across = [&](const float* at) { return across_weighted(at - plane, at, at + plane, row); };
+    to[coarse.index(i, j, k)] = along_weighted(across(mid - 1), across(mid), across(mid + 1));
+  });
+#else
   const auto row_of = [=] ESPDIFF_HD(std::size_t index) {
     const int j = static_cast<int>(index % static_cast<std::size_t>(coarse.ny - 2)) + 1,
               k = static_cast<int>(index / static_cast<std::size_t>(coarse.ny - 2)) + 1;
@@ -54,26 +65,32 @@ void restrict_to(const GridSize& fine, const Buffer<float>& r, const GridSize& c
     }
   };
   for_each_index(static_cast<std::size_t>(coarse.ny - 2) * static_cast<std::size_t>(coarse.nz - 2), row_of);
+#endif
 }
 
 void add_interpolated(const GridSize& coarse, const Buffer<float>& correction, const GridSize& fine, Buffer<float>& x) {
   const float* const from = raw(correction);
   float* const to = raw(x);
-  for_each_index(static_cast<std::size_t>(fine.ny - 2) * static_cast<std::size_t>(fine.nz - 2),
-                 [=] ESPDIFF_HD(std::size_t index) {
-                   const int j = static_cast<int>(index % static_cast<std::size_t>(fine.ny - 2)) + 1,
-                             k = static_cast<int>(index / static_cast<std::size_t>(fine.ny - 2)) + 1;
-                   const int j0 = j / 2, j1 = (j + 1) / 2, k0 = k / 2, k1 = (k + 1) / 2;
-                   const float* const a = from + coarse.index(0, j0, k0);
-                   const float* const b = from + coarse.index(0, j1, k0);
-                   const float* const c = from + coarse.index(0, j0, k1);
-                   const float* const d = from + coarse.index(0, j1, k1);
-                   float* const row = to + fine.index(0, j, k);
-                   for (int i = 1; i < fine.nx - 1; ++i) {
-                     const int i0 = i / 2, i1 = (i + 1) / 2;
-                     row[i] += 0.125F * (((a[i0] + b[i0]) + (c[i0] + d[i0])) + ((a[i1] + b[i1]) + (c[i1] + d[i1])));
-                   }
-                 });
+  const auto add = [=] ESPDIFF_HD(int i, int j, int k) {
+    const int i0 = i / 2, i1 = (i + 1) / 2, j0 = j / 2, j1 = (j + 1) / 2, k0 = k / 2, k1 = (k + 1) / 2;
+    const float* const a = from + coarse.index(0, j0, k0);
+    const float* const b = from + coarse.index(0, j1, k0);
+    const float* const c = from + coarse.index(0, j0, k1);
+    const float* const d = from + coarse.index(0, j1, k1);
+    to[fine.index(i, j, k)] += 0.125F * (((a[i0] + b[i0]) + (c[i0] + d[i0])) + ((a[i1] + b[i1]) + (c[i1] + d[i1])));
+  };
+  const std::size_t ny = static_cast<std::size_t>(fine.ny - 2), nz = static_cast<std::size_t>(fine.nz - 2);
+#if defined(ESPDIFF_BACKEND_CUDA)
+  const std::size_t nx = static_cast<std::size_t>(fine.nx - 2);
+  for_each_index(nx * ny * nz, [=] ESPDIFF_HD(std::size_t index) {
+    add(static_cast<int>(index % nx) + 1, static_cast<int>(index / nx % ny) + 1,
+        static_cast<int>(index / (nx * ny)) + 1);
+  });
+#else
+  for_each_index(ny * nz, [=](std::size_t index) {
+    for (int i = 1; i < fine.nx - 1; ++i) add(i, static_cast<int>(index % ny) + 1, static_cast<int>(index / ny) + 1);
+  });
+#endif
 }
 
 void coarsen(const GridOperator& fine, GridOperator& coarse) {
