@@ -192,22 +192,24 @@ struct TemplateMapping::Parts {
                                         const Surface& target, const AtomPairing& pairing,
                                         const std::vector<float>& potential, const Progress& progress) const {
     std::vector<FrameReading> readings;
-    std::vector<std::vector<double>> shares;
+    std::vector<PotentialReading> asked;
+    const std::vector<Vec3f> points = engine.download_positions(
+        moved_outside(engine, mapping.mapped, target.atoms, isovalue(), options.offsets_A.front()));
     for (const std::vector<double>& weights : reading_weights) {
       FrameReading reading;
       double area = 0;
-      shares.emplace_back(engine.n_vertices(mapping.mapped), 0.0);
+      std::vector<double> shares(weights.size(), 0.0);
       for (std::size_t v = 0; v < weights.size(); ++v) {
         if (weights[v] == 0 || !std::isfinite(potential[v])) continue;
-        area += shares.back()[v] = weights[v];
+        area += shares[v] = weights[v];
         reading.mean += weights[v] * static_cast<double>(potential[v]);
       }
-      for (double& share : shares.back()) share = area > 0 ? share / area : 0;
+      for (double& share : shares) share = area > 0 ? share / area : 0;
+      asked.push_back(weighted_reading(points, shares, potential));
       reading.mean /= area;  // NaN where nothing of it has a value
       readings.push_back(std::move(reading));
     }
-    const MeshPtr points = moved_outside(engine, mapping.mapped, target.atoms, isovalue(), options.offsets_A.front());
-    const auto found = engine.contributions(made.map, points, shares, {}, progress);
+    const auto found = engine.contributions(made.map, asked, {}, progress);
     const std::vector<std::int32_t> partner = paired_residues(*source.molecule, *frame.molecule, pairing);
     for (std::size_t r = 0; r < readings.size(); ++r) {
       const ResidueSums sums = sum_by_residue(*frame.molecule, *made.charges, found[r]);
