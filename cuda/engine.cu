@@ -332,14 +332,14 @@ class BackEndEngine : public Engine {
     });
   }
 
-  std::vector<std::vector<double>> contributions(const GridPtr& map, const MeshPtr& mesh,
-                                                 const std::vector<std::vector<double>>& weights,
+  std::vector<std::vector<double>> contributions(const GridPtr& map, const std::vector<PotentialReading>& readings,
                                                  const std::vector<ProbeCharge>& probes,
                                                  const Progress& progress) override {
-    return run([&] {
-      return ESPDIFF_BACKEND::contributions(unwrap<MapGrid>(map), unwrap<SurfaceMesh>(mesh), weights, probes, pme_,
-                                            progress);
-    });
+    return run([&] { return ESPDIFF_BACKEND::contributions(unwrap<MapGrid>(map), readings, probes, pme_, progress); });
+  }
+
+  GridPtr without_values(const GridPtr& map) override {
+    return run([&] { return ESPDIFF_BACKEND::without_values(unwrap<MapGrid>(map)); });
   }
 
   Metrics compare(const MeshPtr& source, const MeshPtr& mapped, const ScalarsPtr& source_potential,

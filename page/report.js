@@ -48,14 +48,15 @@
   }
 
   // Whether a place of the source is compared with its place on the target.
-  const compares = (quantity) => quantity.name !== 'slip' && !/_(source|target)$/.test(quantity.name);
+  const compares = (quantity) => quantity.name !== 'slip' && quantity.name !== 'why' && !/_(source|target)$/.test(quantity.name);
 
   // The scale by name; magnitudes have one of their own.
   function scaleOf(quantity) { return record.scales[quantity.signed ? byId('colours').value : 'magnitude']; }
 
   function paint(mesh, index, range) {
     const quantity = record.quantities[index], scale = scaleOf(quantity), colours = mesh.colours, column = values[index];
-    for (let v = 0; v < n; ++v) {
+    mesh.why.value = quantity.name === 'why' ? 1 : 0;  // the shader has the colours then
+    for (let v = 0; v < n && !mesh.why.value; ++v) {
       const rgb = colourOf(quantity, column[v], range, scale);
       const s = doubt && column !== doubt && doubt[v] >= 0 && byId('fade').checked ? Math.max(0, Math.min(1, (doubt[v] - fade.from) / (fade.to - fade.from))) * 0.75 : 0;
       for (let k = 0; k < 3; ++k) colours[3 * v + k] = ((1 - s) * rgb[k] + s * 190) / 255;
@@ -79,19 +80,34 @@
   bounds.getCenter(centre);
   const radius = bounds.getSize(corner).length() / 2;
 
+  // [vertex] shares of the reasons but the first around it, in two arrays of four; of a page without reasons 0.
+  const reasons = record.reasons || [], reasonShares = [0, 1].map((half) => {
+    const shares = new Float32Array(4 * n);
+    reasons.slice(1).forEach((reason, r) => {
+      if (reason.text && Math.floor(r / 4) === half) decode(reason).forEach((share, v) => { shares[4 * v + r % 4] = share; });
+    });
+    return shares;
+  });
+
   // As the shaders of pictures: grey where the place is not trusted, stripes without a counterpart, open inside tears.
   function marked(material, mesh) {
-    const grey = 'vec3(' + record.no_value.map((c) => (c / 255).toFixed(4)).join(', ') + ')';
+    const glsl = (rgb) => 'vec3(' + rgb.map((c) => (c / 255).toFixed(4)).join(', ') + ')', grey = glsl(record.no_value);
+    // Of the reason that most of the surroundings have.
+    const ofReason = reasons.map(({ colour }, r) => (r === 0 ? 'vec3 reason = ' + glsl(colour) + '; float most = 1.0 - dot(vReasonsA, vec4(1.0)) - dot(vReasonsB, vec4(1.0)), here;'
+      : 'here = vReasons' + (r < 5 ? 'A' : 'B') + '[' + (r - 1) % 4 + ']; if (here > most) { most = here; reason = ' + glsl(colour) + '; }')).join('\n');
     const after = (text, name, more) => text.replace('#include <' + name + '>', '#include <' + name + '>\n' + more);
     material.extensions = { derivatives: true };
     material.onBeforeCompile = (shader) => {
       shader.uniforms.marks = mesh.marks;
+      shader.uniforms.why = mesh.why;
       shader.uniforms.pitch = { value: 7 * renderer.getPixelRatio() };
-      shader.vertexShader = after(after(shader.vertexShader, 'common', 'attribute vec2 cover; varying vec2 vCover;'), 'begin_vertex', 'vCover = cover;');
-      shader.fragmentShader = after(after(shader.fragmentShader, 'common', 'varying vec2 vCover; uniform float marks, pitch;'), 'color_fragment', `
+      shader.vertexShader = after(after(shader.vertexShader, 'common', 'attribute vec2 cover; attribute vec4 reasonsA, reasonsB; varying vec2 vCover; varying vec4 vReasonsA, vReasonsB;'), 'begin_vertex', 'vCover = cover; vReasonsA = reasonsA; vReasonsB = reasonsB;');
+      shader.fragmentShader = after(after(shader.fragmentShader, 'common', 'varying vec2 vCover; varying vec4 vReasonsA, vReasonsB; uniform float marks, why, pitch;'), 'color_fragment', `
         if (vCover.x < -0.4) discard;
         vec2 inside = clamp((vCover - 0.5) / max(fwidth(vCover), 1e-6) + 0.5, 0.0, 1.0);
         vec3 stripes = mod(gl_FragCoord.x - gl_FragCoord.y, pitch) < 0.4 * pitch ? ${grey} : vec3(0.93);
+        ${ofReason}
+        ${reasons.length ? 'if (why > 0.5) diffuseColor.rgb = reason;' : ''}
         diffuseColor.rgb = mix(diffuseColor.rgb, ${grey}, (1.0 - inside.y) * marks);
         diffuseColor.rgb = mix(stripes, diffuseColor.rgb, inside.x);`);
     };
@@ -104,9 +120,11 @@
     mesh.geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * n), 3));
     mesh.geometry.setAttribute('color', new THREE.BufferAttribute(mesh.colours, 3));
     mesh.geometry.setAttribute('cover', new THREE.BufferAttribute(cover, 2));
+    ['reasonsA', 'reasonsB'].forEach((name, half) => mesh.geometry.setAttribute(name, new THREE.BufferAttribute(reasonShares[half], 4)));
     mesh.geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
     mesh.geometry.computeVertexNormals();
     mesh.marks = { value: 1 };
+    mesh.why = { value: 0 };
     const side = THREE.DoubleSide, vertexColors = THREE.VertexColors || true;
     mesh.surface = new THREE.Mesh(mesh.geometry, marked(new THREE.MeshLambertMaterial({ vertexColors, side }), mesh));
     mesh.scene.add(mesh.surface);
@@ -175,7 +193,7 @@
 
   // Both states have one scale, so that they can be compared by eye.
   const ranges = record.quantities.map((q) => q.range);
-  const states = record.quantities.map((q, i) => i).filter((i) => /^(?!deviation_|effective_samples_|counterparts_).*_(source|target)$/.test(record.quantities[i].name));
+  const states = record.quantities.map((q, i) => i).filter((i) => /^(?!deviation_|effective_samples_|trusted_).*_(source|target)$/.test(record.quantities[i].name));
   for (const i of states) ranges[i] = Math.max(...states.map((k) => record.quantities[k].range));
   function repaint() {
     const list = panels();
@@ -192,6 +210,11 @@
     byId('low').textContent = shown(quantity.signed ? -range : 0);
     byId('high').textContent = shown(range) + ' ' + quantity.unit;
     byId('untrusted').hidden = !record.cover.trusted || !compares(quantity);
+    const isWhy = quantity.name === 'why';
+    for (const id of ['scale', 'low', 'high', 'ranges', 'colour-maps']) byId(id).hidden = isWhy;
+    byId('fades').hidden = isWhy || !doubt;
+    byId('reasons').hidden = !isWhy;
+    byId('unmatched').lastChild.textContent = isWhy ? record.unmatched_text : (record.cover.matched || {}).text || '';
     const context = byId('scale').getContext('2d');
     for (let x = 0; x < 256; ++x) {
       context.fillStyle = 'rgb(' + scale[Math.floor(x * scale.length / 256)].join(',') + ')';
@@ -314,10 +337,14 @@
   byId('quantity').onchange = byId('colours').onchange = byId('fade').onchange = repaint;
   const has = (name) => record.quantities.some((q) => q.name === name);
   byId('unmatched').hidden = !record.cover.matched;
-  for (const [id, part] of [['unmatched', record.cover.matched], ['untrusted', record.cover.trusted]]) byId(id).lastChild.textContent = part ? part.text : '';
+  for (const { text, colour } of reasons.filter((reason) => reason.text)) {
+    const key = add(byId('reasons'), 'span');
+    add(key, 'i').style.background = 'rgb(' + colour.join(',') + ')';
+    key.append(' ' + text);
+  }
+  byId('untrusted').lastChild.textContent = (record.cover.trusted || {}).text || '';
   byId('links').hidden = !record.linked || !record.linked.every(([name]) => has(name));
   byId('link-text').textContent = (record.linked || []).map(([, label]) => label).join(', ');
-  byId('fades').hidden = !doubt;
   byId('fade-text').textContent = fade ? fade.text : '';
   byId('morphs').hidden = source === target;
   byId('molecules').hidden = !record.backbone && !record.molecule_because;

@@ -1,6 +1,9 @@
 // contributions.cu: the transpose of a computed potential by its method; that of isolated charges here.
 #include "cuda/potential/contributions.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "base/error.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/map_origin.h"
@@ -40,24 +43,33 @@ void scale_by_charges(const MapOrigin& origin, const std::vector<ProbeCharge>& p
   for (std::size_t i = 0; i < probes.size(); ++i) of_unit[n + i] *= static_cast<double>(probes[i].charge);
 }
 
-std::vector<std::vector<double>> contributions(const MapGrid& map, const SurfaceMesh& mesh,
-                                               const std::vector<std::vector<double>>& weights,
+std::shared_ptr<MapGrid> without_values(const MapGrid& map) {
+  auto result = std::make_shared<MapGrid>();
+  result->lattice = map.lattice;
+  result->unit = map.unit;
+  std::copy(std::begin(map.to_index), std::end(map.to_index), result->to_index);
+  result->periodic = map.periodic;
+  result->spline_order = map.spline_order;
+  result->origin = map.origin;
+  return result;
+}
+
+std::vector<std::vector<double>> contributions(const MapGrid& map, const std::vector<PotentialReading>& readings,
                                                const std::vector<ProbeCharge>& given, PmeSolver& pme,
                                                const Progress& progress) {
   if (map.origin == nullptr)
     throw InputError("a given potential map does not say which charges it is made of; let the potential be computed");
-  std::vector<WeightedPlaces> readings;
-  for (const std::vector<double>& of_reading : weights) readings.push_back(weighted_places(map, mesh, of_reading));
   const MapOrigin& origin = *map.origin;
   std::vector<ProbeCharge> probes = given;
   for (ProbeCharge& probe : probes) probe.position = origin.to_map.apply(probe.position);
   return_free_memory();  // the solver's large arrays do not fit into what the stages before left free
   if (origin.method == PotentialMethod::kPoissonBoltzmann) return pb_contributions(map, readings, probes, progress);
   std::vector<std::vector<double>> result;
-  for (const WeightedPlaces& reading : readings) {
+  for (const PotentialReading& reading : readings) {
     progress.report("causes", static_cast<double>(result.size()) / static_cast<double>(readings.size()));
-    result.push_back(origin.method == PotentialMethod::kPme ? pme.contributions(map, reading, probes)
-                                                            : coulomb_contributions(origin, reading, probes));
+    const WeightedPlaces places = weighted_places(map, reading);
+    result.push_back(origin.method == PotentialMethod::kPme ? pme.contributions(map, places, probes)
+                                                            : coulomb_contributions(origin, places, probes));
   }
   return result;
 }

@@ -1,11 +1,11 @@
 // contributions.h: what each charge adds to readings of the potential that it is part of (see Engine::contributions).
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "base/progress.h"
 #include "cuda/potential/pme.h"
-#include "cuda/surface/mesh/mesh.h"
 #include "cuda/surface/sample.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -16,13 +16,13 @@ std::vector<Vec3d> charge_places(const MapOrigin& origin, const std::vector<Prob
 void scale_by_charges(const MapOrigin& origin, const std::vector<ProbeCharge>& probes, std::vector<double>& of_unit);
 
 /// @param pme the engine's, for its plans and workspace
-std::vector<std::vector<double>> contributions(const MapGrid& map, const SurfaceMesh& mesh,
-                                               const std::vector<std::vector<double>>& weights,
+std::vector<std::vector<double>> contributions(const MapGrid& map, const std::vector<PotentialReading>& readings,
                                                const std::vector<ProbeCharge>& probes, PmeSolver& pme,
                                                const Progress& progress);
+std::shared_ptr<MapGrid> without_values(const MapGrid& map);
 
-/// Those of poisson_boltzmann(), all with the same coefficients.
-std::vector<std::vector<double>> pb_contributions(const MapGrid& map, const std::vector<WeightedPlaces>& readings,
+/// Those of poisson_boltzmann(), all with the same coefficients. @param probes in the map's frame
+std::vector<std::vector<double>> pb_contributions(const MapGrid& map, const std::vector<PotentialReading>& readings,
                                                   const std::vector<ProbeCharge>& probes, const Progress& progress);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

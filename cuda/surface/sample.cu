@@ -245,30 +245,36 @@ std::shared_ptr<MapGrid> resample(const MapGrid& map, const Lattice& lattice) {
   return result;
 }
 
-WeightedPlaces weighted_places(const MapGrid& map, const SurfaceMesh& mesh, const std::vector<double>& weights) {
-  if (weights.size() != mesh.n_vertices()) throw InputError("a reading needs one weight for each vertex");
+WeightedPlaces weighted_places(const MapGrid& map, const PotentialReading& reading) {
+  if (reading.weights.size() != reading.points.size()) throw InputError("a reading needs one weight for each point");
   const MapView view = view_of(map);
-  const std::vector<Vec4f> positions = to_host(mesh.positions);
   WeightedPlaces places;
-  for (std::size_t v = 0; v < weights.size(); ++v) {
-    if (weights[v] == 0) continue;
-    const Vec3d p = static_cast<Vec3d>(positions[v].xyz());
+  places.place.reserve(reading.points.size());
+  for (const Vec3f& point : reading.points) {
+    const Vec3d p = static_cast<Vec3d>(point);
     places.place.push_back({view.coordinate(0, p), view.coordinate(1, p), view.coordinate(2, p)});
-    places.weight.push_back(weights[v]);
   }
+  places.weight = reading.weights;
   return places;
 }
 
 SparseValues spread_linearly(const MapGrid& map, const WeightedPlaces& places) {
+  /// What one place gives a point, and in which order.
+  struct Part {
+    std::size_t point, order;
+    double weight;
+  };
   const MapView view = view_of(map);
-  std::vector<std::pair<std::size_t, double>> parts;
+  std::vector<Part> parts;
+  constexpr unsigned kCorners = 8;
+  parts.reserve(kCorners * places.place.size());
   for (std::size_t v = 0; v < places.place.size(); ++v) {
     Neighbours at[3];
     for (int axis = 0; axis < 3; ++axis) {
       if (!find_neighbours(view, axis, places.place[v][axis], at[axis]))
         throw InputError("a reading has weight outside the potential map");
     }
-    for (unsigned corner = 0; corner < 8; ++corner) {
+    for (unsigned corner = 0; corner < kCorners; ++corner) {
       double weight = places.weight[v];
       long index = 0;
       for (int axis = 2; axis >= 0; --axis) {
@@ -276,16 +282,16 @@ SparseValues spread_linearly(const MapGrid& map, const WeightedPlaces& places) {
         weight *= up ? at[axis].part : 1 - at[axis].part;
         index = index * view.size[axis] + (up ? at[axis].high : at[axis].low);
       }
-      parts.emplace_back(static_cast<std::size_t>(index), weight);
+      parts.push_back({static_cast<std::size_t>(index), parts.size(), weight});
     }
   }
-  // Stable: the order of a point's parts is that of the vertices.
-  std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::sort(parts.begin(), parts.end(),
+            [](const Part& a, const Part& b) { return a.point != b.point ? a.point < b.point : a.order < b.order; });
   SparseValues values;
   for (std::size_t i = 0; i < parts.size();) {
-    const std::size_t point = parts[i].first;
+    const std::size_t point = parts[i].point;
     double sum = 0;
-    for (; i < parts.size() && parts[i].first == point; ++i) sum += parts[i].second;
+    for (; i < parts.size() && parts[i].point == point; ++i) sum += parts[i].weight;
     values.point.push_back(point);
     values.value.push_back(static_cast<float>(sum));
   }

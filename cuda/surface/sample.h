@@ -7,6 +7,7 @@
 #include "cuda/surface/density/charge_sums.h"
 #include "cuda/surface/density/grid.h"
 #include "cuda/surface/mesh/mesh.h"
+#include "engine/potential_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 
@@ -48,8 +49,7 @@ struct WeightedPlaces {
   std::vector<Vec3d> place;
   std::vector<double> weight;
 };
-/// The mesh's vertices whose weight is not zero. @param weights [vertex]
-WeightedPlaces weighted_places(const MapGrid& map, const SurfaceMesh& mesh, const std::vector<double>& weights);
+WeightedPlaces weighted_places(const MapGrid& map, const PotentialReading& reading);
 /// Values at some points of a lattice, ascending, each point once.
 struct SparseValues {
   std::vector<std::size_t> point;

@@ -32,6 +32,13 @@ bool has_both_differences(const ResidueRow& row) {
   return row.area_A2 >= kLeastOwnArea_A2 && std::isfinite(row.own_difference);
 }
 
+/// Whether the mapped mean is one of the residue: that of a strip of it, where the rest slipped or turned, says nothing
+/// about the whole, which the mean on its own surfaces is of.
+bool can_correlate(const ResidueRow& row) {
+  constexpr double kLeastTrustedShare = 0.25;
+  return has_both_differences(row) && row.trusted_area_fraction >= kLeastTrustedShare;
+}
+
 double error_of(const ResidueRow& row) { return std::fabs(row.mean_signed_difference - row.own_difference); }
 
 /// The error that half of the weight does not exceed.
@@ -120,7 +127,7 @@ ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vect
   double area = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0, errors = 0, potentials = 0;
   ResidueCheck check{kNaN, kNaN, kNaN, 0, 0};
   for (const ResidueRow& row : rows) {
-    if (!has_both_differences(row)) continue;
+    if (!can_correlate(row)) continue;
     const double w = row.own_area_A2, a = row.own_difference, b = row.mean_signed_difference;
     area += w;
     x += w * a;
@@ -143,7 +150,7 @@ ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vect
 std::vector<const ResidueRow*> most_disagreeing(const std::vector<ResidueRow>& rows) {
   std::vector<const ResidueRow*> sorted;
   for (const ResidueRow& row : rows) {
-    if (has_both_differences(row)) sorted.push_back(&row);
+    if (can_correlate(row)) sorted.push_back(&row);
   }
   const auto weighted_error = [](const ResidueRow* row) {
     const double error = row->mean_signed_difference - row->own_difference;

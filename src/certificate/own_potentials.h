@@ -45,8 +45,9 @@ std::vector<std::uint8_t> disagreeing_residues(const std::vector<ResidueRow>& ro
                                                const std::vector<OwnPotential>& source);
 
 /// Pearson's correlation of the rows' mean_signed_difference with own_difference over the residues with at least 5 A^2
-/// of trusted surface, and the size of their disagreement; NaN with fewer than kLeastComparedResidues. The weights are
-/// own_area_A2: the variance of a mean falls with its area, so that these are the inverse variances of the differences.
+/// of trusted surface that is a quarter of their own at least, and the size of their disagreement; NaN with fewer than
+/// kLeastComparedResidues. The weights are own_area_A2: the variance of a mean falls with its area, so that these are
+/// the inverse variances of the differences.
 /// @param source from own_potentials()
 ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vector<OwnPotential>& source);
 

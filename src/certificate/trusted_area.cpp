@@ -127,6 +127,19 @@ void mark_disagreeing(MappedSurface& s, const std::vector<std::uint8_t>& residue
   }
 }
 
+std::vector<std::uint8_t> trusted_vertices(const MappedSurface& s) {
+  std::vector<int> balance(s.positions.size(), 0);
+  std::vector<std::uint8_t> trusted(s.positions.size(), 0);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    for (const std::uint32_t v : s.triangles[t]) {
+      balance[v] += s.why[t] == code(Why::kTrusted) ? 1 : -1;
+      trusted[v] = 1;
+    }
+  }
+  for (std::size_t v = 0; v < trusted.size(); ++v) trusted[v] = trusted[v] != 0 && balance[v] >= 0 ? 1 : 0;
+  return trusted;
+}
+
 std::vector<float> untrusted_triangles(const MappedSurface& s) {
   std::vector<float> untrusted;
   untrusted.reserve(s.why.size());

@@ -76,6 +76,9 @@ void mark_without_potential(MappedSurface& surface);
 /// Marks the triangles with two corners on such residues. @param residues [residue] nonzero to mark
 void mark_disagreeing(MappedSurface& surface, const std::vector<std::uint8_t>& residues);
 
+/// [vertex] nonzero where at least half of the triangles around it are trusted.
+std::vector<std::uint8_t> trusted_vertices(const MappedSurface& surface);
+
 /// [triangle] nonzero where it is not trusted.
 std::vector<float> untrusted_triangles(const MappedSurface& surface);
 

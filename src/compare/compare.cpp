@@ -258,8 +258,10 @@ struct Series::Steps {
   }
 
   /// Fills in the results of a mapping: normals, potentials, metrics, residues, and the verdict.
-  void evaluate(const CompareInput& target, const StateFields& target_fields, const Surface& target_surface,
-                const GridPtr& target_map, MappedStep& step, const Progress& progress, StageClock& clock) {
+  /// @returns the readings whose causes are asked for
+  std::optional<Readings> evaluate(const CompareInput& target, const StateFields& target_fields,
+                                   const Surface& target_surface, const GridPtr& target_map, MappedStep& step,
+                                   const Progress& progress, StageClock& clock) {
     progress.report("metrics", 0.0);
     CompareResult& result = step.result;
     const float isovalue = static_cast<float>(options.surface.isovalue);
@@ -294,12 +296,22 @@ struct Series::Steps {
     judge(result, *source.molecule, options.required_share);
     for (const MeasuredPart& part : parts) finish_part(part, result, *source.molecule, options.required_share);
     clock.lap("metrics");
-    if (options.causes.empty()) return;
-    const PotentialSide of_source{source, source_map.map, surface.atoms},
-        of_target{target, target_map, target_surface.atoms};
-    find_causes(engine, {of_source, *source_map.charges}, {of_target, *target_charges}, options, parts, target_of, step,
-                progress);
-    clock.lap("causes");
+    if (options.causes.empty()) return std::nullopt;
+    return take_readings(engine, {source, source_map.map, surface.atoms}, {target, target_map, target_surface.atoms},
+                         options, parts, target_of, step);
+  }
+
+  /// Frees the surfaces and the potentials, which the causes of the series' last step do not need.
+  void release(Surface& target_surface, GridPtr& target_map, MappedStep& step) {
+    surface = target_surface = {};
+    regularized.reset();
+    source_map.map.reset();
+    target_map.reset();
+    source_references.reset();
+    last.reset();
+    step.morphed = {};
+    step.mapping = {};
+    step.moved.reset();
   }
 
   /// Which chains and which protonation states were compared.
@@ -405,7 +417,8 @@ struct Series::Steps {
   }
 
   /// Runs the stages in order; see Series::step().
-  CompareResult step(const CompareInput& target, StartFrom start, const Progress& progress) {
+  /// @param is_last of the series
+  CompareResult step(const CompareInput& target, StartFrom start, bool is_last, const Progress& progress) {
     CompareResult result;
     std::vector<std::pair<std::string, double>> time_ms;
     StageClock clock(time_ms);
@@ -421,11 +434,11 @@ struct Series::Steps {
     result.warnings = input_warnings(*source.molecule, *target.molecule, result);
     const bool again = may_map_again(result);
     clock.lap("align");
-    const GridPtr target_map = make_maps(target, frame, result, progress);
+    GridPtr target_map = make_maps(target, frame, result, progress);
     if (target_map != nullptr) clock.lap("potential");
 
     prepare(frame.from_source, progress, clock);
-    const Surface target_surface =
+    Surface target_surface =
         build_surface(engine, *target.molecule, frame.from_target, options.surface, progress, clock);
     result.source_surface = surface.summary;
     result.target_surface = target_surface.summary;
@@ -448,12 +461,19 @@ struct Series::Steps {
     } else {
       certificate.not_checked.emplace_back("round_trip");
     }
-    evaluate(target, target_fields, target_surface, target_map, mapped, progress, clock);
+    std::optional<Readings> readings =
+        evaluate(target, target_fields, target_surface, target_map, mapped, progress, clock);
     if (options.method == Method::kMorph) {
       last = after_morph(mapped.morphed, *target.molecule, frame.from_target, std::move(target_atoms), before,
                          certificate.unmatched_source);
     } else if (mapped.result.deform_report.converged) {
       last = after_deform(engine, regularized, mapped.mapping.mapped, std::move(target_atoms));
+    }
+    if (is_last) release(target_surface, target_map, mapped);
+    if (readings) {
+      find_causes(engine, *std::move(readings), {*source.molecule, *source_map.charges},
+                  {*target.molecule, *target_charges}, options, mapped, progress);
+      clock.lap("causes");
     }
     clock.finish();
     mapped.result.time_ms = std::move(time_ms);
@@ -471,12 +491,16 @@ Series::~Series() = default;
 
 CompareResult Series::step(const CompareInput& target, StartFrom start, const Progress& progress) {
   try {
-    return steps_->step(target, start, progress);
+    return steps_->step(target, start, false, progress);
   } catch (...) {
     steps_->last.reset();
     steps_->restored.reset();
     throw;
   }
+}
+
+CompareResult Series::finish(const CompareInput& target, const Progress& progress) {
+  return steps_->step(target, StartFrom::kSource, true, progress);
 }
 
 std::optional<SeriesState> Series::state() const {
@@ -498,7 +522,7 @@ void Series::restore(SeriesState state) {
 
 CompareResult compare(Engine& engine, const CompareInput& source, const CompareInput& target,
                       const CompareOptions& options, const Progress& progress) {
-  return Series(engine, source, options).step(target, StartFrom::kSource, progress);
+  return Series(engine, source, options).finish(target, progress);
 }
 
 }  // namespace espdiff

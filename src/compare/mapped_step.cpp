@@ -41,27 +41,6 @@ void download_surface(Engine& engine, const MappedStep& step, MappedSurface& sur
   surface.path_length = mapping.path_length;
 }
 
-/// Marks the vertices of what turned that lie off the place where it carried them. Nothing is asked of the device where
-/// nothing turned.
-void mark_turned(Engine& engine, const Molecule& source, const Molecule& target, const Surface& source_surface,
-                 MappedStep& step) {
-  MappedSurface& s = step.result.surface;
-  s.turned.assign(s.positions.size(), 0);
-  const std::vector<TurnedAtom> atoms = turned_atoms(source, target, step.result.pairing);
-  const auto has_turned = [](const TurnedAtom& atom) { return atom.turn != Turn::kNone; };
-  if (std::none_of(atoms.begin(), atoms.end(), has_turned)) return;
-  std::vector<std::int32_t> numbers(atoms.size());
-  std::iota(numbers.begin(), numbers.end(), 0);
-  const std::vector<std::int32_t> owner =
-      vertex_labels(engine, source_surface, step.mapping.source, source, step.frame.from_source, numbers);
-  for (std::size_t v = 0; v < owner.size(); ++v) {
-    if (owner[v] < 0) continue;
-    const TurnedAtom& atom = atoms[static_cast<std::size_t>(owner[v])];
-    if (has_turned(atom) && norm(atom.carried.apply(s.source_positions[v]) - s.positions[v]) > kLargeSlip_A)
-      s.turned[v] = static_cast<std::uint8_t>(atom.turn);
-  }
-}
-
 std::vector<Vec3f> rotated(std::vector<Vec3f> normals, const RigidTransform& to_frame) {
   for (Vec3f& n : normals) n = static_cast<Vec3f>(to_frame.rotate(static_cast<Vec3d>(n)));
   return normals;
@@ -72,6 +51,25 @@ std::vector<Vec3f> rotated(std::vector<Vec3f> normals, const RigidTransform& to_
 void set_unmatched_to_nan(const std::vector<bool>& is_matched, std::vector<float>& values) {
   for (std::size_t v = 0; v < values.size(); ++v) {
     if (!is_matched[v]) values[v] = std::numeric_limits<float>::quiet_NaN();
+  }
+}
+
+void mark_turned(Engine& engine, const Molecule& source, const Molecule& target, const AtomPairing& pairing,
+                 const Surface& source_surface, const MeshPtr& mapped_source, const RigidTransform& from_source,
+                 MappedSurface& s) {
+  s.turned.assign(s.positions.size(), 0);
+  const std::vector<TurnedAtom> atoms = turned_atoms(source, target, pairing);
+  const auto has_turned = [](const TurnedAtom& atom) { return atom.turn != Turn::kNone; };
+  if (std::none_of(atoms.begin(), atoms.end(), has_turned)) return;
+  std::vector<std::int32_t> numbers(atoms.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  const std::vector<std::int32_t> owner =
+      vertex_labels(engine, source_surface, mapped_source, source, from_source, numbers);
+  for (std::size_t v = 0; v < owner.size(); ++v) {
+    if (owner[v] < 0) continue;
+    const TurnedAtom& atom = atoms[static_cast<std::size_t>(owner[v])];
+    if (has_turned(atom) && norm(atom.carried.apply(s.source_positions[v]) - s.positions[v]) > kLargeSlip_A)
+      s.turned[v] = static_cast<std::uint8_t>(atom.turn);
   }
 }
 
@@ -93,7 +91,7 @@ void describe(Engine& engine, const Molecule& source, const Molecule& target, co
   s.target_residue = engine.vertex_residues(mapping.mapped, target_surface.atoms);
   const std::vector<std::int32_t> target_of = paired_residues(source, target, step.result.pairing);
   step.result.certificate.same_residue_area_fraction = same_residue_share(s, s.residue, s.target_residue, target_of);
-  mark_turned(engine, source, target, source_surface, step);
+  mark_turned(engine, source, target, step.result.pairing, source_surface, mapping.source, step.frame.from_source, s);
   s.why = why_of_mapping(s, target_of, leaves_out_turned);
   step.result.residues = residue_rows(s, source.residues.size(), false);
 }

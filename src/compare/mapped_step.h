@@ -33,6 +33,14 @@ void set_unmatched_to_nan(const std::vector<bool>& is_matched, std::vector<float
 void describe(Engine& engine, const Molecule& source, const Molecule& target, const Surface& source_surface,
               const Surface& target_surface, bool leaves_out_turned, MappedStep& step);
 
+/// Marks the vertices of what turned that lie off the place where it carried them: fills in the surface's `turned`.
+/// Nothing is asked of the device where nothing turned.
+/// @param mapped_source the source's surface, vertex by vertex that of `surface`, in the common frame
+/// @param surface       with positions in the molecules' own frames
+void mark_turned(Engine& engine, const Molecule& source, const Molecule& target, const AtomPairing& pairing,
+                 const Surface& source_surface, const MeshPtr& mapped_source, const RigidTransform& from_source,
+                 MappedSurface& surface);
+
 /// Fills in the normals of the result's surface.
 void add_normals(Engine& engine, const Surface& source_surface, const Surface& target_surface, float isovalue,
                  MappedStep& step);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "base/molecule/surface_parts.h"
@@ -140,46 +141,77 @@ void refuse_nonlinear(const CompareOptions& options, const MapRecipe& recipe) {
                    "no charge has a part of its own; take the linearized equation");
 }
 
-void find_causes(Engine& engine, const SideCharges& source, const SideCharges& target, const CompareOptions& options,
-                 const std::vector<MeasuredPart>& parts, const std::vector<std::int32_t>& target_of, MappedStep& step,
-                 const Progress& progress) {
-  CompareResult& result = step.result;
-  const Molecule &source_molecule = *source.side.input.molecule, &target_molecule = *target.side.input.molecule;
-  std::vector<std::vector<double>> weights;
-  for (const std::string& text : options.causes)
-    weights.push_back(weights_of(parse_reading(text), text, result, parts, source_molecule));
+PotentialReading weighted_reading(const std::vector<Vec3f>& points, const std::vector<double>& weights,
+                                  const std::vector<float>& potential) {
+  PotentialReading reading;
+  double sum = 0, sizes = 0;
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    if (weights[v] == 0) continue;
+    reading.points.push_back(points[v]);
+    reading.weights.push_back(weights[v]);
+    const double part = weights[v] * static_cast<double>(potential[v]);
+    sum += part;
+    sizes += std::fabs(part);
+  }
+  if (sizes > 0) reading.share_left = std::fabs(sum) / sizes;
+  return reading;
+}
+
+Readings take_readings(Engine& engine, const PotentialSide& source, const PotentialSide& target,
+                       const CompareOptions& options, const std::vector<MeasuredPart>& parts,
+                       std::vector<std::int32_t> target_of, const MappedStep& step) {
+  const CompareResult& result = step.result;
   const float isovalue = static_cast<float>(options.surface.isovalue);
-  const double offset_A = options.offsets_A.front();
+  const auto points_of = [&](const PotentialSide& side, const MeshPtr& mesh) {
+    return engine.download_positions(moved_outside(engine, mesh, side.atoms, isovalue, options.offsets_A.front()));
+  };
+  const std::vector<Vec3f> on_source = points_of(source, step.mapping.source),
+                           on_target = points_of(target, step.mapping.mapped);
+  Readings readings;
+  for (const std::string& text : options.causes) {
+    readings.weights.push_back(weights_of(parse_reading(text), text, result, parts, *source.input.molecule));
+    const std::vector<double>& weights = readings.weights.back();
+    readings.of_source.push_back(weighted_reading(on_source, weights, result.surface.potential_source));
+    readings.of_target.push_back(weighted_reading(on_target, weights, result.surface.potential_target));
+  }
+  readings.source_map = engine.without_values(source.map);
+  readings.target_map = engine.without_values(target.map);
+  readings.target_of = std::move(target_of);
+  return readings;
+}
+
+void find_causes(Engine& engine, Readings readings, const SideCharges& source, const SideCharges& target,
+                 const CompareOptions& options, MappedStep& step, const Progress& progress) {
+  CompareResult& result = step.result;
   auto causes = std::make_shared<Causes>();
-  causes->changes = residue_changes(
-      {source_molecule, target_molecule, target_of, result.pairing, result.protonation, result.source_to_target});
-  causes->knows_places = knows_places(source_molecule) || knows_places(target_molecule);
-  for (const Residue& residue : source_molecule.residues)
-    causes->has_chains = causes->has_chains || residue.chain != source_molecule.residues.front().chain;
+  causes->changes = residue_changes({source.molecule, target.molecule, readings.target_of, result.pairing,
+                                     result.protonation, result.source_to_target});
+  causes->knows_places = knows_places(source.molecule) || knows_places(target.molecule);
+  for (const Residue& residue : source.molecule.residues)
+    causes->has_chains = causes->has_chains || residue.chain != source.molecule.residues.front().chain;
   const std::vector<std::uint8_t> may_move = at_surface(result, *causes);
   const StateProbes source_probes =
-                        probes_of(source_molecule, step.frame.from_source, *causes, false, may_move, options),
+                        probes_of(source.molecule, step.frame.from_source, *causes, false, may_move, options),
                     target_probes =
-                        probes_of(target_molecule, step.frame.from_target, *causes, true, may_move, options);
-  const auto contributions = [&](const PotentialSide& side, const MeshPtr& mesh, const StateProbes& probes) {
-    return engine.contributions(side.map, moved_outside(engine, mesh, side.atoms, isovalue, offset_A), weights,
-                                probes.charges, progress);
-  };
-  auto of_source = contributions(source.side, step.mapping.source, source_probes),
-       of_target = contributions(target.side, step.mapping.mapped, target_probes);
+                        probes_of(target.molecule, step.frame.from_target, *causes, true, may_move, options);
+  // One state after the other: what the first one's potential left is not needed for the second.
+  auto of_source = engine.contributions(std::exchange(readings.source_map, nullptr), readings.of_source,
+                                        source_probes.charges, progress);
+  auto of_target = engine.contributions(readings.target_map, readings.of_target, target_probes.charges, progress);
   const auto depends_on_shape = [](const std::shared_ptr<const MapRecipe>& recipe) {
     return recipe != nullptr && recipe->method == PotentialMethod::kPoissonBoltzmann;
   };
   const bool is_exact = !depends_on_shape(result.source_recipe) && !depends_on_shape(result.target_recipe);
   const MappedSurface& s = result.surface;
-  for (std::size_t r = 0; r < weights.size(); ++r) {
+  for (std::size_t r = 0; r < readings.weights.size(); ++r) {
+    const std::vector<double>& weights = readings.weights[r];
     const std::vector<double> source_values = take_probes(of_source[r], source.charges.size()),
                               target_values = take_probes(of_target[r], target.charges.size());
     add_reading(*causes, options.causes[r],
-                {source_molecule, source.charges, of_source[r], places_of(weights[r], s.source_positions),
-                 reading_of(weights[r], s.potential_source)},
-                {target_molecule, target.charges, of_target[r], places_of(weights[r], s.positions),
-                 reading_of(weights[r], s.potential_target)});
+                {source.molecule, source.charges, of_source[r], places_of(weights, s.source_positions),
+                 reading_of(weights, s.potential_source)},
+                {target.molecule, target.charges, of_target[r], places_of(weights, s.positions),
+                 reading_of(weights, s.potential_target)});
     add_probed(*causes, source_probes, source_values, target_probes, target_values, is_exact, options);
   }
   for (const CausesOfReading& reading : causes->readings) {

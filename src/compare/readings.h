@@ -1,9 +1,11 @@
 // readings.h: readings of the potentials on a mapped surface, and their causes.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "compare/compare_potentials.h"
+#include "engine/potential_stage.h"
 #include "mapping/input.h"
 
 namespace espdiff {
@@ -16,16 +18,37 @@ void check_causes(const CompareOptions& options, const CompareInput& source, con
 /// As soon as the first potential is known. @throws InputError for causes of the nonlinear equation
 void refuse_nonlinear(const CompareOptions& options, const MapRecipe& recipe);
 
-/// One side's charges, in the order of its map.
+/// What the causes of a step's readings are found from besides its result: neither surfaces nor potentials, which may
+/// be gone by then.
+struct Readings {
+  std::vector<std::vector<double>> weights;  ///< [reading][vertex]
+  /// [reading]
+  std::vector<PotentialReading> of_source, of_target;
+  GridPtr source_map, target_map;  ///< without values
+  std::vector<std::int32_t> target_of;
+};
+
+/// The points of one reading whose weight is not zero.
+/// @param points, weights, potential [vertex]; the potential as sampled there
+PotentialReading weighted_reading(const std::vector<Vec3f>& points, const std::vector<double>& weights,
+                                  const std::vector<float>& potential);
+
+/// The readings that the options ask for. The step's residues and parts are complete.
+/// @param target_of [source residue] from paired_residues()
+/// @throws InputError for a reading without surface
+Readings take_readings(Engine& engine, const PotentialSide& source, const PotentialSide& target,
+                       const CompareOptions& options, const std::vector<MeasuredPart>& parts,
+                       std::vector<std::int32_t> target_of, const MappedStep& step);
+
+/// A molecule as it is compared, and its charges in the order of its map.
 struct SideCharges {
-  const PotentialSide& side;
+  const Molecule& molecule;
   const Molecule& charges;
 };
 
-/// The causes of the readings that the options ask for, into the step's result, whose residues and parts are complete.
-/// @throws InputError (a reading without surface; the nonlinear equation), and as Engine::contributions()
-void find_causes(Engine& engine, const SideCharges& source, const SideCharges& target, const CompareOptions& options,
-                 const std::vector<MeasuredPart>& parts, const std::vector<std::int32_t>& target_of, MappedStep& step,
-                 const Progress& progress);
+/// The causes of the readings, into the step's result.
+/// @throws as Engine::contributions()
+void find_causes(Engine& engine, Readings readings, const SideCharges& source, const SideCharges& target,
+                 const CompareOptions& options, MappedStep& step, const Progress& progress);
 
 }  // namespace espdiff

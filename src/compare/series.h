@@ -59,6 +59,10 @@ class Series {
   /// @throws as compare()
   CompareResult step(const CompareInput& target, StartFrom start, const Progress& progress);
 
+  /// A last step from the source. Surfaces and potentials are freed as soon as nothing asks for them; no other step can
+  /// follow.
+  CompareResult finish(const CompareInput& target, const Progress& progress);
+
   /// State for continuing with the next step; empty if that starts from the source.
   std::optional<SeriesState> state() const;
   /// Continues from a state() of an equal series: the next step gives the same bits as there.

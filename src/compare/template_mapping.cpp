@@ -12,7 +12,9 @@
 #include "certificate/certificate.h"
 #include "certificate/result.h"
 #include "certificate/slip.h"
+#include "certificate/trusted_area.h"
 #include "compare/compare_fields.h"
+#include "compare/mapped_step.h"
 #include "engine/engine.h"
 #include "engine/morph_stage.h"
 #include "field/field_kinds.h"
@@ -175,39 +177,43 @@ struct TemplateMapping::Parts {
   }
 
   /// Where the vertices arrive, with their residues on the template.
-  void describe_mapped(const Mapping& mapping, const Surface& target, MappedSurface& s) const {
+  void describe_mapped(const Mapping& mapping, const Surface& target, const CommonFrame& common,
+                       MappedSurface& s) const {
+    const RigidTransform to_template = inverse(common.from_source), to_frame = inverse(common.from_target);
     Mesh mesh = engine.download_shape(mapping.mapped);
     s.triangles = std::move(mesh.triangles);
-    for (const Vec3f& p : mesh.positions) s.positions.push_back(static_cast<Vec3d>(p));
+    for (const Vec3f& p : mesh.positions) s.positions.push_back(to_frame.apply(static_cast<Vec3d>(p)));
     s.unmatched.assign(mapping.unmatched.begin(), mapping.unmatched.end());
     s.corrupt.assign(s.triangles.size(), 0);  // removed
     s.residue = engine.vertex_residues(mapping.source, surface.atoms);
     for (const Vec3f& p : engine.download_positions(mapping.source))
-      s.source_positions.push_back(static_cast<Vec3d>(p));
+      s.source_positions.push_back(to_template.apply(static_cast<Vec3d>(p)));
     s.target_residue = engine.vertex_residues(mapping.mapped, target.atoms);
   }
 
-  /// @param potential [vertex of the template] of the frame
+  /// @param values of the frame: its potential, and where it is trusted
   std::vector<FrameReading> readings_of(const CompareInput& frame, const MadeMap& made, const Mapping& mapping,
-                                        const Surface& target, const AtomPairing& pairing,
-                                        const std::vector<float>& potential, const Progress& progress) const {
+                                        const Surface& target, const AtomPairing& pairing, const TemplateFrame& values,
+                                        const Progress& progress) const {
     std::vector<FrameReading> readings;
-    std::vector<std::vector<double>> shares;
+    std::vector<PotentialReading> asked;
+    const std::vector<Vec3f> points = engine.download_positions(
+        moved_outside(engine, mapping.mapped, target.atoms, isovalue(), options.offsets_A.front()));
     for (const std::vector<double>& weights : reading_weights) {
       FrameReading reading;
       double area = 0;
-      shares.emplace_back(engine.n_vertices(mapping.mapped), 0.0);
+      std::vector<double> shares(weights.size(), 0.0);
       for (std::size_t v = 0; v < weights.size(); ++v) {
-        if (weights[v] == 0 || !std::isfinite(potential[v])) continue;
-        area += shares.back()[v] = weights[v];
-        reading.mean += weights[v] * static_cast<double>(potential[v]);
+        if (weights[v] == 0 || values.trusted[v] == 0 || !std::isfinite(values.potential[v])) continue;
+        area += shares[v] = weights[v];
+        reading.mean += weights[v] * static_cast<double>(values.potential[v]);
       }
-      for (double& share : shares.back()) share = area > 0 ? share / area : 0;
+      for (double& share : shares) share = area > 0 ? share / area : 0;
+      asked.push_back(weighted_reading(points, shares, values.potential));
       reading.mean /= area;  // NaN where nothing of it has a value
       readings.push_back(std::move(reading));
     }
-    const MeshPtr points = moved_outside(engine, mapping.mapped, target.atoms, isovalue(), options.offsets_A.front());
-    const auto found = engine.contributions(made.map, points, shares, {}, progress);
+    const auto found = engine.contributions(made.map, asked, {}, progress);
     const std::vector<std::int32_t> partner = paired_residues(*source.molecule, *frame.molecule, pairing);
     for (std::size_t r = 0; r < readings.size(); ++r) {
       const ResidueSums sums = sum_by_residue(*frame.molecule, *made.charges, found[r]);
@@ -270,7 +276,7 @@ void TemplateMapping::check_kind(const CompareInput& frame, const std::string& n
   p.first_name = name;
 }
 
-TemplateFrame TemplateMapping::map(const CompareInput& frame, bool check_slip, const Progress& progress) {
+TemplateFrame TemplateMapping::map(const CompareInput& frame, const Progress& progress) {
   Parts& p = *parts_;
   TemplateFrame out;
   StageClock clock(out.time_ms);
@@ -290,18 +296,22 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, bool check_slip, c
   find_matched_part(p.engine, mapping, target.atoms, target.mesh, p.isovalue());
   result.certificate = certify(p.engine, mapping, target.mesh);
   result.certificate.converged = true;
-  p.describe_mapped(mapping, target, result.surface);
+  p.describe_mapped(mapping, target, common, result.surface);
   const std::vector<std::int32_t> target_of = paired_residues(*p.source.molecule, *frame.molecule, result.pairing);
   MappedSurface& s = result.surface;
   result.certificate.same_residue_area_fraction = same_residue_share(s, s.residue, s.target_residue, target_of);
-  if (check_slip) p.measure_slip(mapping, target, paths, result);
+  p.measure_slip(mapping, target, paths, result);
+  mark_turned(p.engine, *p.source.molecule, *frame.molecule, result.pairing, p.surface, mapping.source,
+              common.from_source, s);
+  s.why = why_of_mapping(s, target_of);
+  result.certificate.trusted = sum_trusted(s, {}, result.certificate.unmatched_target);
+  out.trusted = trusted_vertices(s);
+  out.trusted.resize(p.n_vertices);  // those that the morph added come after them
   clock.lap("certificate");
   out.potential = p.sample(made.map, frame, mapping, target, s.triangles, result.certificate.outside_maps);
   p.read_fields(of_frame, frame, made.map, mapping, target, common, s.triangles, out);
   if (!p.reading_weights.empty())
-    out.readings = p.readings_of(frame, made, mapping, target, result.pairing, out.potential, progress);
-  s.why = why_of_mapping(s, target_of);
-  result.certificate.trusted = sum_trusted(s, {}, result.certificate.unmatched_target);
+    out.readings = p.readings_of(frame, made, mapping, target, result.pairing, out, progress);
   judge(result, *p.source.molecule, p.options.required_share);
   out.unit = unit_of(frame);
   out.rmsd_A = result.rmsd_A;

@@ -39,6 +39,7 @@ struct TemplateFrame {
   /// [vertex of the template] potential of the frame where the vertex is mapped to; NaN if the vertex is unmatched or
   /// lies outside the map.
   std::vector<float> potential;
+  std::vector<std::uint8_t> trusted;  ///< [vertex of the template] trusted_vertices()
   PotentialUnit unit = PotentialUnit::kUnknown;
   std::vector<std::vector<float>> fields;  ///< [field of the options][vertex of the template] as `potential`
   std::vector<std::string> field_notes;    ///< what does not match, such as residues that a table lacks
@@ -55,8 +56,8 @@ struct TemplateFrame {
 /// Maps one surface onto many frames by the morph. The template's surface and its regularization are made once; a frame
 /// costs its own surface, potential and mapping. Frames do not depend on each other, nor on their order.
 ///
-/// A frame's certificate has the checks of the mapping (fit, distances, intersections, unmatched areas) and those of
-/// the input, and slip if it is asked for; round trip and the residues' own potentials are not checked.
+/// A frame's certificate has the checks of the mapping (fit, distances, intersections, unmatched areas, slip, residues,
+/// what turned) and those of the input; round trip and the residues' own potentials are not checked.
 class TemplateMapping {
  public:
   /// @param source the template; its potential, if it has one, is where an iterative potential of a frame starts
@@ -73,10 +74,9 @@ class TemplateMapping {
   /// @param name of the frame, for messages
   /// @throws InputError (another kind, unless the options trust maps), and as compare()
   void check_kind(const CompareInput& frame, const std::string& name, const Progress& progress);
-  /// @param frame      has a map
-  /// @param check_slip is part of the verdict then; it changes no value
+  /// @param frame has a map
   /// @throws as compare(), Engine::contributions()
-  TemplateFrame map(const CompareInput& frame, bool check_slip, const Progress& progress);
+  TemplateFrame map(const CompareInput& frame, const Progress& progress);
 
  private:
   struct Parts;

@@ -37,6 +37,7 @@ struct MorphResult;
 struct MovingAtom;
 struct PmeCell;
 struct PmeOptions;
+struct PotentialReading;
 struct ProbeCharge;
 struct PoissonBoltzmannOptions;
 struct PoissonBoltzmannReport;
@@ -253,22 +254,24 @@ class Engine {
                                     const PoissonBoltzmannOptions& options, const RigidTransform& to_map,
                                     const GridPtr& start, const Progress& progress, PoissonBoltzmannReport* report) = 0;
 
-  /// [reading][atom] what each charge adds to readings of the potential that it is part of, kT/e. A reading is a
-  /// weighted sum of samples, sum_v w_v sample(v). A computed potential is linear in its charges, so that the
-  /// contributions add up to the reading: each is the transpose of all that made the map and samples it. pb solves its
-  /// equation once for each reading (its operator is symmetric), all with the same coefficients; coulomb and pme take
-  /// the weights as charges and read their potential at the atoms. Time: at most that of the map for each reading.
-  /// A probe is a charge that the map is not made of: what it would add, with the map's coefficients kept.
-  /// @param map     of poisson_boltzmann(), pme_potential(), zero_in_bulk() or isolated_charges(); the contributions
-  /// are in the order of its charges, then the probes
-  /// @param weights [reading][vertex]; 0 where the vertex lies outside the map
-  /// @param probes  in the mesh's frame
-  /// @throws InputError (a map that was not computed, the nonlinear equation, a weight or a probe outside the map),
+  /// [reading][atom] what each charge adds to readings of the potential that it is part of, kT/e. A computed potential
+  /// is linear in its charges, so that the contributions add up to the reading: each is the transpose of all that made
+  /// the map and samples it. pb solves its equation once for each reading (its operator is symmetric), all with the
+  /// same coefficients; coulomb and pme take the weights as charges and read their potential at the atoms. Time: at
+  /// most that of the map for each reading. A probe is a charge that the map is not made of: what it would add, with
+  /// the map's coefficients kept.
+  /// @param map    of poisson_boltzmann(), pme_potential(), zero_in_bulk(), isolated_charges() or without_values(); the
+  /// contributions are in the order of its charges, then the probes
+  /// @param probes in the common frame
+  /// @throws InputError (a map that was not computed, the nonlinear equation, a point or a probe outside the map),
   ///         MemoryError, ConvergenceError, Cancelled
-  virtual std::vector<std::vector<double>> contributions(const GridPtr& map, const MeshPtr& mesh,
-                                                         const std::vector<std::vector<double>>& weights,
+  virtual std::vector<std::vector<double>> contributions(const GridPtr& map,
+                                                         const std::vector<PotentialReading>& readings,
                                                          const std::vector<ProbeCharge>& probes,
                                                          const Progress& progress) = 0;
+  /// The charges and the equation of a computed map: enough for contributions(), where the potential itself is not
+  /// needed any more.
+  virtual GridPtr without_values(const GridPtr& map) = 0;
 
   /// Compares potentials at corresponding vertices.
   /// @param source, mapped  meshes of one topology: each vertex on the source and on the target

@@ -66,6 +66,14 @@ struct CoulombOptions {
   double temperature_K = 300;
 };
 
+/// A weighted sum of a potential's samples, sum_v w_v sample(v); see Engine::contributions().
+struct PotentialReading {
+  std::vector<Vec3f> points;    ///< common frame, Angstrom
+  std::vector<double> weights;  ///< [point]
+  /// |sum w_v sample(v)| over sum |w_v sample(v)|, as far as it is known. What cancels is found more exactly.
+  double share_left = 1;
+};
+
 /// A charge that a map is not made of; see Engine::contributions().
 struct ProbeCharge {
   Vec3d position;    ///< Angstrom

@@ -122,7 +122,7 @@ std::vector<EnsembleFile> open_files(const EnsemblePlan& plan, const TemplateSur
 void write_frame(std::vector<EnsembleFile>& files, std::size_t f, const TemplateFrame& frame, const MeshGraph& graph) {
   for (std::size_t k = 0; k < files.size(); ++k) {
     const std::vector<float>& values = k == 0 ? frame.potential : frame.fields[k - 1];
-    if (!files[k].has(f)) files[k].write(f, values, numbers_of(frame, values, graph));
+    if (!files[k].has(f)) files[k].write(f, values, numbers_of(frame, values, graph), frame.trusted);
   }
 }
 
@@ -175,7 +175,7 @@ EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInpu
         [&](const std::string& stage, double) { progress.report(text + "; " + name + ": " + stage, share); });
     try {
       inner.report("read", 0.0);
-      const TemplateFrame frame = mapping.map(read(f), plan.matrix != nullptr, inner);
+      const TemplateFrame frame = mapping.map(read(f), inner);
       write_frame(all, f, frame, graph);
       if (i == 0) report.notes = frame.field_notes;
       add_times(report.time_ms, frame.time_ms);

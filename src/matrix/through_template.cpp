@@ -3,13 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "matrix/matrix_summary.h"
 
 namespace espdiff {
 
 bool is_given_by_template(const Metric& metric) {
-  return metric.section == MetricSection::kPotential && metric.source.of_area != nullptr;
+  const bool is_share = metric.json_pointer().find("/trusted_area_fraction/") != std::string::npos;
+  return is_share || (metric.section == MetricSection::kPotential && metric.source.of_area != nullptr);
 }
 
 std::vector<TemplateAgreement> agreement(const Matrix& matrix) {

@@ -25,11 +25,12 @@ struct ThroughTemplate {
   double area_A2 = 0;
   std::vector<std::pair<std::string, std::string>> settings;  ///< of the mappings; those of the plan are of exact pairs
   std::vector<TemplateState> states;                          ///< [variant]
-  double mean_area_fraction = 0, least_area_fraction = 0;     ///< of the template that both states of a pair have
+  double mean_area_fraction = 0, least_area_fraction = 0;     ///< of the template, trusted onto both states of a pair
   std::vector<MatrixCell> exact;                              ///< pairs that were compared by themselves as well
 };
 
-/// Whether a metric comes from the potentials of two states in the same vertices alone.
+/// Whether a metric comes from the values of two states in the same vertices alone: differences and similarities, and
+/// the trusted areas, of which both are the share of the template that is trusted onto both states.
 bool is_given_by_template(const Metric& metric);
 
 struct Matrix;

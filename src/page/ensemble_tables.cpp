@@ -198,8 +198,8 @@ TableJson number_sections(const TableJson& record, const EnsembleNames& names) {
   add_rows(sections, "Other templates", template_rows(record));
   TableJson surface = TableJson::array();
   add_row(surface, "Area", "Of the template's surface", with_unit(short_number(record, "area_A2"), "A2"));
-  add_row(surface, "Tested area", "Where enough frames of each group have a counterpart",
-          with_unit(short_number(record, "tested_area_A2"), "A2"));
+  add_row(surface, "Tested area", "Where enough frames of each group trust the mapping",
+          with_unit(short_number(record, "tested_area_A2"), "A2") + ", " + percent(record, "tested_area_fraction"));
   add_rows(sections, "Surface", std::move(surface));
   return sections;
 }
@@ -210,17 +210,19 @@ TableJson ensemble_tables(const TableJson& record, const EnsembleNames& names) {
     rows.push_back({r.at("group"), r.at("name"), short_number(r, "n_frames"), short_number(r, "median_inefficiency", 3),
                     short_number(r, "median_effective_samples", 3), percent(r, "trend_share"),
                     short_number(r, "mean_potential"), short_number(r, "mean_rmsd_A", 3),
-                    short_number(r, "n_not_trustworthy"), short_number(r, "n_failed")});
-  TableJson tables =
-      TableJson::array({TableJson{{"title", "Replicates"},
-                                  {"help",
-                                   "g frames hold as much as one independent sample; a run that samples a state has "
-                                   "a trend of 11 % in the mean, one "
-                                   "that diffuses 60 %. RMSD from the template."},
-                                  {"columns",
-                                   {"Group", "Replicate", "Frames", "g", "Effective samples", "Trend",
-                                    "Mean [" + names.unit + ']', "RMSD [A]", "Not trusted", "Failed"}},
-                                  {"rows", std::move(rows)}}});
+                    percent(r, "trusted_area_fraction"), short_number(r, "n_not_trustworthy"),
+                    short_number(r, "n_failed")});
+  TableJson tables = TableJson::array(
+      {TableJson{{"title", "Replicates"},
+                 {"help",
+                  "g frames hold as much as one independent sample; a run that samples a state has "
+                  "a trend of 11 % in the mean, one "
+                  "that diffuses 60 %. RMSD from the template. Trusted area: of the "
+                  "template, mean over the frames."},
+                 {"columns",
+                  {"Group", "Replicate", "Frames", "g", "Effective samples", "Trend", "Mean [" + names.unit + ']',
+                   "RMSD [A]", "Trusted area", "Not trustworthy", "Failed"}},
+                 {"rows", std::move(rows)}}});
   const TableJson causes = record.value("causes", TableJson::array());
   for (const TableJson& reading : causes) tables.push_back(cause_table(reading, names));
   return tables;

@@ -2,6 +2,9 @@
 #include "page/page_surface.h"
 
 #include <algorithm>
+#include <cctype>
+#include <limits>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/molecule/surface_parts.h"
@@ -9,8 +12,25 @@
 #include "page/report_page.h"
 #include "plot/automatic_range.h"
 #include "plot/shared_range.h"
+#include "scene/colour_scale.h"
+#include "scene/reasons.h"
 
 namespace espdiff {
+namespace {
+
+constexpr int kShareSteps = 255;
+
+/// Of the source where the result has them.
+std::vector<Vec3d> source_positions(const VtpContent& surface) {
+  const VtpNumbers* const array = find_array(surface.point_arrays, "source_position");
+  if (array == nullptr || array->n_components != 3) return surface.positions;
+  std::vector<Vec3d> positions;
+  for (std::size_t i = 0; i + 2 < array->values.size(); i += 3)
+    positions.push_back({array->values[i], array->values[i + 1], array->values[i + 2]});
+  return positions;
+}
+
+}  // namespace
 
 void require_three() {
   if (page_texts().count("three.min.js") == 0)
@@ -78,6 +98,45 @@ std::vector<std::uint8_t> page_flags(const VtpContent& surface, const char* name
   return flags;
 }
 
+void add_page_reasons(nlohmann::ordered_json& page, PageArrays& arrays, const VtpContent& surface) {
+  const VtpNumbers* const why = find_array(surface.cell_arrays, "why");
+  if (why == nullptr || why->n_components != 1) return;
+  std::vector<std::uint8_t> codes, turned;
+  for (const double code : why->values)
+    codes.push_back(static_cast<std::uint8_t>(code >= 0 && code < kNumberOfReasonCodes ? code : 0));
+  if (const VtpNumbers* const array = find_array(surface.point_arrays, "turned"); array != nullptr)
+    for (const double turn : array->values) turned.push_back(turn > 0 ? 1 : 0);
+  const ReasonCodes reasons{surface.triangles, codes, turned};
+  const auto areas = areas_of_reasons(reasons, source_positions(surface));
+  const auto shares = shares_of_reasons(reasons, surface.positions.size());
+  VtpNumbers main{"why", 1, std::vector<double>(surface.positions.size(), std::numeric_limits<double>::quiet_NaN())};
+  page["reasons"] = nlohmann::ordered_json::array();
+  for (std::size_t r = 0; r < kDrawnReasons.size(); ++r) {
+    const auto& [key, words, colour] = kDrawnReasons[r];
+    nlohmann::ordered_json entry;
+    if (areas[r] > 0) {
+      entry = arrays.add_numbers({shares[r].begin(), shares[r].end()}, kShareSteps);
+      entry["text"] = reason_in_words(words, areas[r]);
+    }
+    entry["key"] = key;
+    entry["colour"] = {colour.red, colour.green, colour.blue};
+    page["reasons"].push_back(std::move(entry));
+  }
+  for (std::size_t v = 0; v < main.values.size(); ++v) {
+    float most = 0;
+    for (std::size_t r = 0; r < shares.size(); ++r) {
+      if (!(shares[r][v] > most)) continue;
+      most = shares[r][v];
+      main.values[v] = static_cast<double>(r);
+    }
+  }
+  const double unmatched = 1 - std::accumulate(areas.begin(), areas.end(), 0.0);
+  page["unmatched_text"] = reason_in_words(PageMarks{}.unmatched_text, unmatched);
+  std::string label = legend_title(RenderArray::kWhy, "");
+  label.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(label.front())));
+  page["quantities"].push_back(page_quantity(arrays, main, label, "", false));
+}
+
 void add_page_mesh(nlohmann::ordered_json& page, PageArrays& arrays, const VtpContent& surface,
                    const std::vector<Vec3d>& start, const PageMarks& marks) {
   SurfaceFile drawn;
@@ -92,7 +151,6 @@ void add_page_mesh(nlohmann::ordered_json& page, PageArrays& arrays, const VtpCo
   const SurfaceCover cover = cover_of(drawn, places);
   page["positions"]["target"] = add_page_positions(arrays, cover.positions);
   page["triangles"] = arrays.add_triangles(surface.triangles);
-  constexpr int kShareSteps = 255;
   const auto has = [](const std::vector<std::uint8_t>& flags) {
     return std::find(flags.begin(), flags.end(), 1) != flags.end();
   };

@@ -48,6 +48,10 @@ struct PageMarks {
   const char* unmatched_text = "no counterpart";
 };
 
+/// The quantity `why`, and `reasons` of the record: words with the share of the surface, colour, and the share around
+/// each vertex, of all that occur, in the order of kDrawnReasons. Nothing without the array `why`.
+void add_page_reasons(nlohmann::ordered_json& page, PageArrays& arrays, const VtpContent& surface);
+
 /// [triangle] nonzero entries of a cell array; empty without such an array.
 std::vector<std::uint8_t> page_flags(const VtpContent& surface, const char* name);
 

@@ -178,6 +178,7 @@ void add_surface(Json& page, PageArrays& arrays, const PairFiles& files) {
   add_page_mesh(page, arrays, surface, start, marks_of(surface));
   page["positions"]["source"] = add_page_positions(arrays, start);
   page["quantities"] = quantities_json(arrays, files);
+  add_page_reasons(page, arrays, surface);
   page["residue"] = arrays.add_integers(residues_of_vertices(files));
   page["fade"] = {{"name", "slip"}, {"from", 1}, {"to", 3}, {"text", "fainter where the mapping slips"}};
   page["linked"] = Json::array();

@@ -2,10 +2,12 @@
 #include "scene/reasons.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/smooth_field.h"
 #include "base/triangle_areas.h"
+#include "io/files/write_csv.h"
 
 namespace espdiff {
 namespace {
@@ -29,6 +31,10 @@ const std::array<DrawnReason, kNumberOfDrawnReasons> kDrawnReasons = {
      {"unpaired", "without a partner", {0, 150, 110}},
      {"no_potential", "no potential", kNoValueColour},
      {"turned_side_chain", "trusted, side chain turned", {135, 190, 230}}}};
+
+std::string reason_in_words(const char* words, double share) {
+  return words + (" " + csv_number(std::round(1000 * share) / 10)) + " %";
+}
 
 std::vector<std::size_t> drawn_reasons(const ReasonCodes& codes) {
   std::vector<std::size_t> reasons;

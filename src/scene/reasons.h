@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "base/types.h"
@@ -31,6 +32,9 @@ struct ReasonCodes {
   const std::vector<std::uint8_t>& why;     ///< [triangle]
   const std::vector<std::uint8_t>& turned;  ///< [vertex]; may be empty
 };
+
+/// A key of the legend: "slipped 3.2 %". @param share of the surface
+std::string reason_in_words(const char* words, double share);
 
 /// [triangle] index into kDrawnReasons; of unmatched triangles kNumberOfDrawnReasons.
 std::vector<std::size_t> drawn_reasons(const ReasonCodes& codes);

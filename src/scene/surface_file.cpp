@@ -113,6 +113,7 @@ void read_arrays(SurfaceFile& file, const VtpContent& surface) {
   file.residue_number = numbers_of(surface, "residue_number");
   file.untrusted = flags_of(surface, "corrupt");
   file.unmatched = flags_of(surface, "no_counterpart");
+  if (file.unmatched.empty()) file.unmatched = flags_of(surface, "untested");  // of an ensemble
   if (const VtpNumbers* const why = find_array(surface.cell_arrays, "why"); why != nullptr && why->n_components == 1) {
     for (const double code : why->values)
       file.why.push_back(static_cast<std::uint8_t>(code >= 0 && code < kNumberOfReasonCodes ? code : 0));

@@ -102,9 +102,6 @@ void add_reasons(Legend& legend, const ComparisonScene& scene, const Paper& pape
   const double left = 0.25 * paper.width, right = 0.98 * paper.width, gap = 1.2 * paper.text_height;
   double x = left, y = paper.bar_top;
   legend.text((left + right) / 2, y + 1.7 * paper.text_height, legend_title(RenderArray::kWhy, ""), Align::kCentre);
-  const auto words = [](const char* meaning, double share) {
-    return std::string(meaning) + " " + readable_number(std::round(1000 * share) / 10) + " %";
-  };
   const auto place = [&](const std::string& meaning) {
     if (x > left && x + legend.key_width(meaning) > right) {
       x = left;
@@ -121,12 +118,12 @@ void add_reasons(Legend& legend, const ComparisonScene& scene, const Paper& pape
   for (std::size_t r = 0; r < areas.size(); ++r) {
     matched += areas[r];
     if (!(areas[r] > 0)) continue;
-    const std::string meaning = words(kDrawnReasons[r].words, areas[r]);
+    const std::string meaning = reason_in_words(kDrawnReasons[r].words, areas[r]);
     const double here = place(meaning);
     legend.key(here, y, kDrawnReasons[r].colour, 1, meaning);
   }
   if (!scene.geometry().has(SurfacePart::kUnmatched)) return;
-  const std::string meaning = words("no counterpart", 1 - matched);
+  const std::string meaning = reason_in_words("no counterpart", 1 - matched);
   const double here = place(meaning);
   legend.hatched_key(here, y, meaning);
 }

@@ -40,6 +40,7 @@ ResidueRow row_of(std::size_t residue, double area, double own, double mapped) {
   row.area_A2 = row.own_area_A2 = area;
   row.own_difference = own;
   row.mean_signed_difference = mapped;
+  row.trusted_area_fraction = 1;
   return row;
 }
 
@@ -101,8 +102,14 @@ TEST_CASE("the correlation weighs residues by their area, and leaves out what ha
   std::vector<ResidueRow> more = rows;
   more.push_back(row_of(30, 4.9, 0.9, -0.9));
   more.push_back(row_of(31, 100, std::nan(""), -0.9));
+  // Nor a residue of which a strip is trusted: its mean is not that of the residue.
+  more.push_back(row_of(32, 100, 0.9, -0.9));
+  more.back().trusted_area_fraction = 0.24;
   CHECK(check_residues(more, source).correlation == doctest::Approx(1));
   CHECK(check_residues(more, source).n_residues == 30);
+  CHECK(most_disagreeing(more)[0]->residue != 32);
+  more.back().trusted_area_fraction = 0.25;
+  CHECK(check_residues(more, source).correlation < 0.95);
 }
 
 TEST_CASE("a residue that disagrees by far is named, and one by the noise of all others is not") {

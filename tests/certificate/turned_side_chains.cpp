@@ -155,6 +155,63 @@ TEST_SUITE("compare.turned_side_chains") {
     CHECK(norm(atoms[0].carried.apply({1, 2, 3}) - Vec3d{6, -2, 3}) < 1e-9);
   }
 
+  TEST_CASE("a ligand turned by half a turn turned as a whole, unless the turn puts it onto itself") {
+    // Eight CA on the corners of a cube around a flat ring of six atoms and what is bound to it.
+    const auto with_ligand = [](const char* at_first, bool has_tail) {
+      Molecule molecule;
+      for (std::int32_t r = 0; r < 8; ++r) {
+        molecule.residues.push_back({"ALA", "A", r + 1, ' '});
+        espdiff::Atom ca;
+        ca.name = "CA";
+        ca.element = "C";
+        ca.residue = r;
+        molecule.atoms.push_back(ca);
+        molecule.positions.push_back({10.0 * (r % 2) - 5, 10.0 * (r / 2 % 2) - 5, 10.0 * (r / 4) - 5});
+      }
+      molecule.residues.push_back({"LIG", "A", 9, ' '});
+      for (int k = 0; k < (has_tail ? 7 : 6); ++k) {
+        espdiff::Atom atom;
+        atom.name = "X" + std::to_string(k);
+        atom.element = k == 0 ? at_first : "C";
+        atom.residue = 8;
+        molecule.atoms.push_back(atom);
+        const double angle = k * espdiff::kPi / 3, radius = k == 6 ? 2.9 : 1.4;  // the tail is at the first atom
+        molecule.positions.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+      }
+      return molecule;
+    };
+    const auto half_turn = [](Molecule molecule, std::size_t first) {  // about y, of the ligand
+      for (std::size_t i = first; i < molecule.size(); ++i)
+        molecule.positions[i] = {-molecule.positions[i].x, molecule.positions[i].y, -molecule.positions[i].z};
+      for (Vec3d& p : molecule.positions) p = Vec3d{7, 0, 0} + Vec3d{-p.y, p.x, p.z};  // another frame
+      return molecule;
+    };
+    const auto n_turned = [](const Molecule& source, const Molecule& target) {
+      std::size_t n = 0;
+      for (const TurnedAtom& atom : espdiff::turned_atoms(source, target, all_paired(source)))
+        n += atom.turn == Turn::kResidue ? 1 : 0;
+      return n;
+    };
+    const Molecule benzene = with_ligand("C", false), pyridine = with_ligand("N", false),
+                   toluene = with_ligand("C", true);
+    CHECK(n_turned(benzene, half_turn(benzene, 8)) == 0);  // other names, the same places
+    CHECK(n_turned(pyridine, half_turn(pyridine, 8)) == 6);
+    CHECK(n_turned(toluene, half_turn(toluene, 8)) == 7);
+    for (const Molecule& ligand : {benzene, pyridine, toluene})
+      CHECK(n_turned(ligand, half_turn(ligand, ligand.size())) == 0);
+    const std::vector<TurnedAtom> atoms = espdiff::turned_atoms(toluene, half_turn(toluene, 8), all_paired(toluene));
+    CHECK(atoms[0].turn == Turn::kNone);
+    // Half a turn about y here, then the other frame.
+    CHECK(norm(atoms[8].carried.apply({1, 2, 3}) - Vec3d{5, -1, -3}) < 1e-9);
+    // Three heavy atoms have no rotation that is sure.
+    Molecule small = toluene;
+    for (std::size_t i = 0; i < 4; ++i) {
+      small.atoms.pop_back();
+      small.positions.pop_back();
+    }
+    CHECK(n_turned(small, half_turn(small, 8)) == 0);
+  }
+
   TEST_CASE("the area of turned side chains is a share of the trusted, and the rest has its own mean difference") {
     espdiff::MappedSurface s;
     Molecule molecule;

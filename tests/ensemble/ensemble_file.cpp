@@ -23,8 +23,15 @@ constexpr std::size_t kFrames = 30;
 
 std::vector<float> values_of(const EnsembleFile& file, std::size_t frame) {
   std::vector<float> values(file.n_vertices());
-  file.read_values(frame, 0, values.size(), values.data());
+  file.read_all_values(frame, 0, values.size(), values.data());
   return values;
+}
+
+/// Two of three vertices.
+std::vector<std::uint8_t> planted_trust(std::size_t frame, std::size_t n) {
+  std::vector<std::uint8_t> trusted(n);
+  for (std::size_t v = 0; v < n; ++v) trusted[v] = (v + frame) % 3 != 0 ? 1 : 0;
+  return trusted;
 }
 
 /// The values of a frame.
@@ -36,7 +43,8 @@ std::vector<float> planted(std::size_t frame, std::size_t n) {
 
 void fill(EnsembleFile& file, std::size_t begin, std::size_t end) {
   for (std::size_t f = begin; f < end; ++f)
-    file.write(f, planted(f, file.n_vertices()), {1, 0.5, 0, 0, 1, 0.25, true, f == 3 ? "a note" : ""});
+    file.write(f, planted(f, file.n_vertices()), {1, 0.5, 0, 0, 1, 0.25, true, f == 3 ? "a note" : ""},
+               planted_trust(f, file.n_vertices()));
 }
 
 std::string damaged(std::string bytes, std::size_t at) {
@@ -71,6 +79,12 @@ TEST_CASE("what is written is read, before and after the file is closed") {
   CHECK(file.n_done() == 4);
   CHECK(file.n_damaged() == 0);
   CHECK(values_of(file, 3) == planted(3, file.n_vertices()));
+  std::vector<float> trusted(10);
+  file.read_values(3, 5, 15, trusted.data());
+  for (std::size_t v = 5; v < 15; ++v) {
+    if (planted_trust(3, file.n_vertices())[v] != 0) CHECK(trusted[v - 5] == planted(3, file.n_vertices())[v]);
+    if (planted_trust(3, file.n_vertices())[v] == 0) CHECK(std::isnan(trusted[v - 5]));
+  }
   CHECK(file.numbers(3).note == "a note");
   CHECK(file.numbers(3).rmsd_A == 1);
   CHECK(file.numbers(3).trustworthy);

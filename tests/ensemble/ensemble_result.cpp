@@ -276,7 +276,7 @@ TEST_CASE("without an effect nothing is found") {
   CHECK(result.noise.across == doctest::Approx(result.noise.replicates[0]).epsilon(0.1));
 }
 
-TEST_CASE("vertices without a counterpart in too many frames of a group are left out, and said") {
+TEST_CASE("vertices that too many frames of a group do not trust are left out, and the share is said") {
   const ScratchFolder folder;
   const std::string path = folder.file("a.h5");
   plant_file(path, planted_plan(4, 4, 100), -1, 7);
@@ -285,8 +285,10 @@ TEST_CASE("vertices without a counterpart in too many frames of a group are left
     std::vector<float> values(file.n_vertices());
     for (std::size_t f = 400; f < 800; f += 4) {  // a quarter of the mutants' frames
       file.read_values(f, 0, values.size(), values.data());
-      for (std::size_t v = 0; v < values.size() / 2; ++v) values[v] = std::numeric_limits<float>::quiet_NaN();
-      file.write(f, values, file.numbers(f));
+      std::vector<std::uint8_t> trusted(values.size(), 1);
+      for (std::size_t v = 0; v < values.size() / 2; ++v) trusted[v] = 0;
+      values[1] = std::numeric_limits<float>::quiet_NaN();  // has no counterpart
+      file.write(f, values, file.numbers(f), trusted);
     }
   }
   const EnsembleFile file(path, false);
@@ -294,12 +296,32 @@ TEST_CASE("vertices without a counterpart in too many frames of a group are left
   CHECK(result.tested[0] == 0);
   CHECK(result.tested.back() == 1);
   CHECK(std::isnan(result.test.p_tfce[0]));
-  CHECK(result.groups[1].present[0] == doctest::Approx(0.75));
-  REQUIRE(result.warnings.size() == 1);
-  CHECK(result.warnings[0].find("% of the template's area is unmatched in more than 20 %") != std::string::npos);
+  CHECK(result.groups[0].trusted[0] == 1);
+  CHECK(result.groups[1].trusted[0] == doctest::Approx(0.75));
+  double half = 0;
+  for (std::size_t v = 0; v < result.tested.size() / 2; ++v) half += result.graph.area[v];
+  CHECK(result.tested_share() == doctest::Approx(1 - half / result.area_A2));
+  CHECK(result.replicates[0].trusted_area_fraction == doctest::Approx(1));
+  CHECK(result.replicates[4].trusted_area_fraction == doctest::Approx(1 - 0.25 * half / result.area_A2));
+  std::ostringstream table;
+  print_ensemble(table, file, result);
+  INFO(table.str());
+  CHECK(table.str().find("%), which at least 90 % of each group's frames trust\n") != std::string::npos);
+  const double share = 100 * result.tested_share();
+  REQUIRE(result.warnings.size() == (share < 50 ? 1 : 0));
   EnsembleOptions lenient;
   lenient.most_missing = 0.3;
-  CHECK(analyse_ensemble(file, lenient).tested[0] == 1);
+  const EnsembleResult more = analyse_ensemble(file, lenient);
+  CHECK(more.tested[0] == 1);
+  // What is not trusted in a frame does not count there.
+  std::vector<float> values(file.n_vertices());
+  double sum = 0;
+  for (std::size_t f = 400; f < 800; ++f) {
+    file.read_all_values(f, 0, values.size(), values.data());
+    REQUIRE(std::isfinite(values[0]));
+    if (f % 4 != 0) sum += static_cast<double>(values[0]);
+  }
+  CHECK(more.groups[1].mean[0] == doctest::Approx(sum / 300));
 }
 
 TEST_CASE("one replicate a group is a statement about the runs, and says so") {
@@ -418,7 +440,7 @@ TEST_CASE("values that do not change, and missing frames, are refused") {
   }
   CHECK(message_of([&] {
           analyse_ensemble(file, {});
-        }).find("no vertex of the template has a counterpart in 80 % of each group's frames") == 0);
+        }).find("no vertex of the template is trusted in 90 % of each group's frames") == 0);
   EnsembleOptions options;
   options.equilibration = parse_equilibration("4");
   CHECK(message_of([&] { analyse_ensemble(file, options); }) ==

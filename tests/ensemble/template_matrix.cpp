@@ -64,8 +64,9 @@ class PlantedStates {
   }
   std::size_t n_vertices() const { return surface_.positions.size(); }
   std::vector<double> areas() const { return espdiff::make_mesh_graph(surface_.positions, surface_.triangles).area; }
-  void write(std::size_t state, const std::vector<float>& values, bool trustworthy = true) {
-    file_->write(state, values, {1, 0, 0, 0, 1, 0, trustworthy, trustworthy ? "" : "it slipped"});
+  void write(std::size_t state, const std::vector<float>& values, bool trustworthy = true,
+             const std::vector<std::uint8_t>& trusted = {}) {
+    file_->write(state, values, {1, 0, 0, 0, 1, 0, trustworthy, trustworthy ? "" : "it slipped"}, trusted);
   }
   void write_error(std::size_t state) {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -91,8 +92,11 @@ TEST_CASE("the cells are the sums over the vertices that both states have") {
   for (std::size_t i = 0; i < 3; ++i) {
     Normal normal(7, i);
     for (float& value : values[i]) value = static_cast<float>(normal.next() + static_cast<double>(i));
+    std::vector<std::uint8_t> trusted(values[i].size(), 1);
+    trusted[10 + i] = 0;      // and another one is not trusted
     values[i][i] = kNoValue;  // another vertex of each state has no counterpart
-    states.write(i, values[i]);
+    states.write(i, values[i], true, trusted);
+    values[i][10 + i] = kNoValue;  // does not count below
   }
   const Matrix matrix = states.matrix();
   REQUIRE(matrix.cells.size() == 6);
@@ -121,6 +125,8 @@ TEST_CASE("the cells are the sums over the vertices that both states have") {
     CHECK(value("sign_change_area_fraction") == doctest::Approx(sign / area));
     CHECK(value("hodgkin_index") == doctest::Approx(2 * ab / (aa + bb)));
     CHECK(value("carbo_index") == doctest::Approx(ab / std::sqrt(aa * bb)));
+    CHECK(value("trusted_source") == doctest::Approx(area / all));
+    CHECK(value("trusted_target") == doctest::Approx(area / all));
     CHECK(std::isnan(value("rmsd_A")));
     CHECK(std::isnan(value("mean_displacement_A")));
     const espdiff::MatrixCell& back = matrix.cell(cell.target, cell.source);
@@ -162,6 +168,35 @@ TEST_CASE("a state onto which the mapping is not trustworthy is named, and its r
   CHECK(json["trustworthy"][0][3].is_null());
   CHECK_FALSE(json["metrics"].contains("rmsd_A"));
   CHECK(json["template"]["absent"][0] == "rmsd_A");
+}
+
+TEST_CASE("a cell is trustworthy from the required share of the template on, which both states have to be trusted on") {
+  const ScratchFolder folder;
+  PlantedStates states(folder.file("a.h5"), 3);
+  const std::size_t n = states.n_vertices();
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::vector<float> values(n);
+    for (std::size_t v = 0; v < n; ++v) values[v] = static_cast<float>(v % 7 + i * v);
+    std::vector<std::uint8_t> trusted(n, 1);
+    for (std::size_t v = 0; v < n; ++v) trusted[v] = (i == 1 && v < n / 3) || (i == 2 && v >= 2 * n / 3) ? 0 : 1;
+    states.write(i, values, true, trusted);
+  }
+  const std::vector<double> areas = states.areas();
+  double all = 0, middle = 0;
+  for (std::size_t v = 0; v < n; ++v) {
+    all += areas[v];
+    middle += v >= n / 3 && v < 2 * n / 3 ? areas[v] : 0;
+  }
+  const Matrix matrix = states.matrix();
+  for (const MatrixPair& pair : {MatrixPair{0, 1}, MatrixPair{2, 0}}) {
+    CHECK(matrix.cell(pair.first, pair.second).trustworthy);
+    CHECK(matrix.cell(pair.first, pair.second).values[find_metric("trusted_source")] > 0.5);
+  }
+  const espdiff::MatrixCell& cell = matrix.cell(1, 2);
+  CHECK(cell.values[find_metric("trusted_source")] == doctest::Approx(middle / all));
+  CHECK_FALSE(cell.trustworthy);
+  REQUIRE(cell.reasons.size() == 1);
+  CHECK(contains(cell.reasons[0], " % of the template is trusted onto both states (limit 50 %)"));
 }
 
 TEST_CASE("the sample of exact pairs is the same each time, without doubles, and grows from smaller ones") {

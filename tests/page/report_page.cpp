@@ -17,6 +17,7 @@
 #include "page/page_texts.h"
 #include "page/report_page.h"
 #include "page/result_page.h"
+#include "scene/reasons.h"
 
 using namespace espdiff;       // NOLINT: a test
 using namespace espdiff_test;  // NOLINT: a test
@@ -288,6 +289,7 @@ TEST_CASE("a browser has the numbers of the file; a field's target is the sum of
   nlohmann::json wanted;
   for (const auto& quantity : record.at("quantities")) {
     const std::string name = quantity.at("name");
+    if (name == "why") continue;  // the last; the file has it by triangle
     CHECK(quantity.contains("sum_of") == (name == "potential_target" || name == "curvature_target"));
     if (name == "curvature_target") {
       CHECK(quantity.at("label") == "Mean curvature, target");
@@ -301,7 +303,7 @@ TEST_CASE("a browser has the numbers of the file; a field's target is the sum of
           "; const all = Page.decodeAll(Page.record.quantities); let worst = 0; "
           "wanted.forEach((list, q) => { const size = Math.max(...list.map(Math.abs), 1e-9); list.forEach((x, v) => { "
           "worst = Math.max(worst, x === null ? (isNaN(all[q][v]) ? 0 : 9) : Math.abs(all[q][v] - x) / size); }); }); "
-          "document.documentElement.dataset.seen = all.length + '|' + (worst < 1e-3 ? 'same' : worst);",
+          "document.documentElement.dataset.seen = (all.length - 1) + '|' + (worst < 1e-3 ? 'same' : worst);",
       result.folder);
   if (!dom) return;
   CHECK(!contains(*dom, "data-failed"));
@@ -347,6 +349,76 @@ TEST_CASE("a browser marks what has no counterpart and what is not trusted, each
   CHECK_MESSAGE(contains(*untrusted, "data-seen=\"untrusted:true|:false\""), untrusted->substr(0, 400));
   const auto unmatched = shown_in_browser(with("matched", 0.25), look, result.folder);
   CHECK_MESSAGE(contains(*unmatched, "data-seen=\"unmatched:true|unmatched:true\""), unmatched->substr(0, 400));
+}
+
+TEST_CASE("a page has the reasons of pictures: their keys, colours and shares of the surface") {
+  if (!has_three()) return;
+  const SmallResult result;
+  const auto record = nlohmann::json::parse(element(report_page(result.prefix, ""), "record"));
+  const auto certificate = nlohmann::json::parse(read_file(result.prefix + ".json")).at("certificate");
+  const auto& reasons = record.at("reasons");
+  REQUIRE(reasons.size() == kDrawnReasons.size());
+  double trusted = 0, not_trusted = 0;
+  for (std::size_t r = 0; r < reasons.size(); ++r) {
+    CHECK(reasons[r].at("key") == kDrawnReasons[r].key);
+    CHECK(reasons[r].at("colour") ==
+          nlohmann::json{kDrawnReasons[r].colour.red, kDrawnReasons[r].colour.green, kDrawnReasons[r].colour.blue});
+    if (!reasons[r].contains("text")) continue;
+    const std::string text = reasons[r].at("text"), words = std::string(kDrawnReasons[r].words) + ' ';
+    REQUIRE(text.rfind(words, 0) == 0);
+    const bool is_trusted = r == 0 || reasons[r].at("key") == "turned_side_chain";
+    (is_trusted ? trusted : not_trusted) += std::stod(text.substr(words.size()));
+  }
+  CHECK(trusted ==
+        doctest::Approx(100 * certificate.at("trusted_area_fraction").at("source").get<double>()).scale(0.2));
+  CHECK(trusted + not_trusted <= doctest::Approx(100).scale(0.5));
+  const auto& last = record.at("quantities").back();
+  CHECK(last.at("name") == "why");
+  CHECK(last.at("label") == "Where it is trusted, and why not elsewhere");
+  VtpContent old = read_vtp(result.prefix + ".vtp");
+  old.cell_arrays.clear();  // of an older result
+  nlohmann::ordered_json page = {{"quantities", nlohmann::ordered_json::array()}};
+  PageArrays arrays;
+  add_page_reasons(page, arrays, old);
+  CHECK(!page.contains("reasons"));
+}
+
+TEST_CASE("a browser draws the reason that most of the surroundings have, with its key instead of the scale") {
+  if (!has_three()) return;
+  const SmallResult result;
+  const std::string whole = report_page(result.prefix, "");
+  // 0.4 of every vertex's surroundings slipped, and 0.3 are on another residue and trusted.
+  auto record = nlohmann::json::parse(element(whole, "record"));
+  const std::size_t n = record.at("n_vertices");
+  for (std::size_t r = 0; r < kDrawnReasons.size(); ++r) {
+    const double share = r == 0 ? 0.3 : r == 1 ? 0.4 : r == 2 ? 0.3 : 0;
+    const auto colour = record["reasons"][r]["colour"];
+    record["reasons"][r] = {{"offset", 0}, {"n", n}, {"min", share}, {"max", share}, {"steps", 1}, {"stride", n}};
+    record["reasons"][r]["colour"] = colour;
+    record["reasons"][r]["key"] = kDrawnReasons[r].key;
+    if (share > 0) record["reasons"][r]["text"] = std::string(kDrawnReasons[r].words) + " 40 %";
+  }
+  std::string page = whole;
+  const std::string old = element(whole, "record");
+  page.replace(page.find(old), old.size(), record.dump());
+  const auto dom = shown_in_browser(
+      page,
+      "const gl = document.querySelector('#canvas canvas'), copy = document.createElement('canvas'); "
+      "copy.width = gl.width; copy.height = gl.height; const context = copy.getContext('2d'); "
+      "const choose = document.getElementById('quantity'); "
+      "const orange = (name) => { choose.value = Page.record.quantities.findIndex((q) => q.name === name); "
+      "choose.onchange(); context.clearRect(0, 0, gl.width, gl.height); context.drawImage(gl, 0, 0); "
+      "const p = context.getImageData(0, 0, gl.width, gl.height).data; let some = 0, all = 0; "
+      "for (let i = 0; i < p.length; i += 4) { if (p[i + 3] < 255) continue; ++all; "
+      "some += Math.abs(p[i + 1] / p[i] - 94 / 213) < 0.05 && p[i + 2] < 0.1 * p[i]; } "
+      "const seen = ['scale', 'ranges', 'colour-maps', 'reasons'].filter((id) => !document.getElementById(id).hidden); "
+      "return (all > 1000 && some > 0.9 * all) + ':' + seen.join('+'); }; "
+      "document.documentElement.dataset.seen = [orange('why'), orange('potential_difference'), "
+      "document.querySelectorAll('#reasons > span').length].join('|');",
+      result.folder);
+  if (!dom) return;
+  CHECK(!contains(*dom, "data-failed"));
+  CHECK_MESSAGE(contains(*dom, "data-seen=\"true:reasons|false:scale+ranges+colour-maps|3\""), dom->substr(0, 400));
 }
 
 TEST_CASE("a browser draws the surface, and a click on a residue shows it") {

@@ -55,15 +55,29 @@ def ensemble(tmp_path_factory):
         points = file["VTKHDF/Points"][:]
         polygons = file["VTKHDF/Polygons/Connectivity"][:].reshape(-1, 3)
         n = len(points)
-        values = file["VTKHDF/PointData/potential"][:].reshape(-1, n)
+        values = trusted_values(file)
+        potential = file["VTKHDF/PointData/potential"][:].reshape(-1, n)
     return {
         "folder": folder,
         "points": points,
         "triangles": polygons,
         "values": values.reshape(8, 10, n),  # [replicate][frame][vertex]; the first four are wild
+        "potential": potential,  # [frame][vertex] trusted or not
         "vtp": vtp_arrays(folder / "out.vtp"),
         "json": json.loads((folder / "out.json").read_text()),
     }
+
+
+def trusted_values(file):
+    """[frame][vertex] of an open OUT.h5; NaN where a frame's mapping is not trusted."""
+    n = len(file["VTKHDF/Points"])
+    values, trusted = (file[f"VTKHDF/PointData/{name}"][:].reshape(-1, n) for name in ("potential", "trusted"))
+    return np.where(trusted == 1, values, np.float32(np.nan))
+
+
+def is_tested(values):
+    """[vertex] whether at least 90 % of each group's frames trust it."""
+    return np.isfinite(values).reshape(2, -1, values.shape[2]).mean(1).min(0) >= 0.9 - 1e-9
 
 
 def vertex_areas(points, triangles):
@@ -79,7 +93,8 @@ def test_means_t_p_and_intervals_are_those_of_scipy(ensemble):
     means = np.nanmean(ensemble["values"].astype(float), axis=1)
     vtp = ensemble["vtp"]
     tested = np.isfinite(vtp["t"])
-    assert tested.mean() > 0.8
+    assert 0.3 < tested.mean() < 0.9
+    assert np.array_equal(tested, is_tested(ensemble["values"]))
     assert np.allclose(vtp["potential_source"][tested], means[:4].mean(0)[tested], atol=1e-5)
     result = stats.ttest_ind(means[4:, tested], means[:4, tested], equal_var=False)
     assert np.allclose(vtp["t"][tested], result.statistic, rtol=1e-4, atol=1e-4)
@@ -149,8 +164,7 @@ def run_of_100(tmp_path_factory):
                     f"wild={DATA / 'trpcage_wild.pqr'}", "--grid-spacing", "1.6", "--potential", "coulomb", "-q", "-o", "out"],
                    cwd=folder, check=True)
     with h5py.File(folder / "out.h5") as file:
-        n = len(file["VTKHDF/Points"])
-        return file["VTKHDF/PointData/potential"][:].reshape(-1, n).astype(float), vtp_arrays(folder / "out.vtp")
+        return trusted_values(file).astype(float), vtp_arrays(folder / "out.vtp")
 
 
 def test_effective_samples_of_a_simulation_are_those_of_pymbar(run_of_100):
@@ -158,7 +172,7 @@ def test_effective_samples_of_a_simulation_are_those_of_pymbar(run_of_100):
     timeseries = pytest.importorskip("pymbar.timeseries")
     values, vtp = run_of_100
     ours = next(vtp[name] for name in vtp if name.startswith("effective_samples"))
-    chosen = np.flatnonzero(np.isfinite(values).all(axis=0) & np.isfinite(ours))[::7]
+    chosen = np.flatnonzero(np.isfinite(values).all(axis=0) & np.isfinite(ours))[::3]
     theirs = np.array([len(values) / timeseries.statistical_inefficiency(values[:, v]) for v in chosen])
     assert len(chosen) > 300
     assert np.median(theirs / ours[chosen]) == pytest.approx(1, rel=0.05)
@@ -237,14 +251,15 @@ def test_paraview_layout_has_each_frame(ensemble):
         reader.Update()
         output = reader.GetOutputDataObject(0)
         got = vtk_to_numpy(output.GetPointData().GetArray("potential"))
-        assert np.array_equal(got, ensemble["values"].reshape(80, -1)[step], equal_nan=True)
+        assert np.array_equal(got, ensemble["potential"][step], equal_nan=True)
 
 
 def test_the_mutant_is_found_at_the_mutant(ensemble):
     patches = ensemble["json"]["patches"]
     assert patches, "no significant patch"
-    assert patches[0]["difference"] < 0  # a positive charge less
-    names = [r["residue"] for r in patches[0]["residues"]]
+    strongest = max(patches, key=lambda patch: abs(patch["difference"]))
+    assert strongest["difference"] < 0  # a positive charge less
+    names = [r["residue"] for r in strongest["residues"]]
     assert any(name.split()[1] == "8" for name in names)
 
 
@@ -263,7 +278,7 @@ def test_regression_is_that_of_scipy(ensemble):
     vtp = vtp_arrays(folder / "regressed.vtp")
     means = np.nanmean(ensemble["values"].astype(float), axis=1)
     tested = np.flatnonzero(np.isfinite(vtp["regression_t"]))
-    assert len(tested) > 0.9 * means.shape[1]
+    assert np.array_equal(tested, np.flatnonzero(is_tested(ensemble["values"])))
     for v in tested[::97]:
         expected = stats.linregress(values, means[:, v])
         assert vtp["regression_correlation"][v] == pytest.approx(expected.rvalue, abs=1e-5)

@@ -1,15 +1,17 @@
 // conjugate_gradients.cu: the iteration, its updates, and restarts from the true residual.
 #include "cuda/potential/pb/conjugate_gradients.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
+/// x += alpha p, r -= alpha A p, which is in work.z. @returns r . r
+using Advance = std::function<double(float alpha)>;
+
 /// Conjugate gradients from the residual in work.r until the recursion's residual is below the tolerance. @returns it
 double iterate(Multigrid& preconditioner, const SolverOptions& options, SolverReport& report, SolverWork& work,
-               Buffer<float>& x, const std::function<void(double)>& step) {
+               const Advance& advance_by, const std::function<void(double)>& step) {
   double rz_before = 0, residual = report.relative_residual;
   while (residual > options.tolerance && report.cycles < options.max_cycles) {
     const double rz = preconditioner.precondition(work.r, work.z);
@@ -17,7 +19,7 @@ double iterate(Multigrid& preconditioner, const SolverOptions& options, SolverRe
         preconditioner.turn_and_apply(rz_before == 0 ? 0.0F : static_cast<float>(rz / rz_before), work.z, work.p);
     rz_before = rz;
     if (!(curvature > 0) || !(rz > 0)) break;  // the direction is rounding noise
-    residual = std::sqrt(advance(static_cast<float>(rz / curvature), work.p, work.z, x, work.r)) / options.norm;
+    residual = std::sqrt(advance_by(static_cast<float>(rz / curvature))) / options.norm;
     ++report.cycles;
     step(residual);
   }
@@ -44,17 +46,31 @@ SolverReport conjugate_gradients(const GridOperator& a, Multigrid& preconditione
       clear_inner(a.size, x);
       report.relative_residual = true_residual();
     }
-    const bool has_iterated = report.cycles > 0;
-    report.converged =
-        report.relative_residual <= (has_iterated ? std::max(options.tolerance, options.rounding) : options.tolerance);
+    report.converged = report.relative_residual <= options.tolerance;
     const bool is_over = report.cycles >= options.max_cycles || restart == kMostRestarts;
     if (report.converged || is_over || !std::isfinite(report.relative_residual)) break;
     // The first pass finds x itself, the others what rounding left of it.
     if (restart == 1) low.assign(x.size(), 0.0F);
     if (restart > 1) add_parts(x, low);
-    iterate(preconditioner, options, report, work, restart == 0 ? x : low, step);
+    Buffer<float>& part = restart == 0 ? x : low;
+    iterate(
+        preconditioner, options, report, work,
+        [&](float alpha) { return advance(alpha, work.p, work.z, part, work.r); }, step);
   }
   if (!low.empty()) add_parts(x, low);
+  return report;
+}
+
+SolverReport conjugate_gradients(Multigrid& preconditioner, const SolverOptions& options, SolverWork& work,
+                                 const TakeDirection& take, const std::function<void(double)>& step) {
+  SolverReport report;
+  report.start_residual = report.relative_residual = std::sqrt(dot_product(work.r, work.r)) / options.norm;
+  const Advance advance_by = [&](float alpha) {
+    take(static_cast<double>(alpha), work.p);
+    return subtract_scaled(alpha, work.z, work.r);
+  };
+  report.relative_residual = iterate(preconditioner, options, report, work, advance_by, step);
+  report.converged = report.relative_residual <= options.tolerance;
   return report;
 }
 

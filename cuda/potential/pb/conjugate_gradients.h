@@ -12,9 +12,6 @@ struct SolverOptions {
   double tolerance = 1e-6;  ///< of |b - A x| / norm
   double norm = 1;          ///< residuals are relative to it
   int max_cycles = 100;
-  /// A true residual up to this is accepted where the recursion's is below the tolerance. What is left is the rounding
-  /// of x to single precision; it needs no second part of x where it does no harm.
-  double rounding = 0;
 };
 
 struct SolverReport {
@@ -53,5 +50,14 @@ using RightHandSide = std::function<void(Buffer<float>& b)>;
 SolverReport conjugate_gradients(const GridOperator& a, Multigrid& preconditioner, const RightHandSide& b,
                                  const SolverOptions& options, SolverWork& work, Buffer<float>& x,
                                  const std::function<void(double)>& step);
+
+/// Receives each search direction p [point] and its length alpha: x = sum of alpha p.
+using TakeDirection = std::function<void(double alpha, const Buffer<float>& p)>;
+
+/// Solves A x = b for linear functions of x: there is no array x. `take` adds up what is asked of it, so that it is
+/// not rounded to single precision either. The residual is the recursion's; the caller checks what it found.
+/// @param work  its r is b; used up
+SolverReport conjugate_gradients(Multigrid& preconditioner, const SolverOptions& options, SolverWork& work,
+                                 const TakeDirection& take, const std::function<void(double)>& step);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -285,6 +285,13 @@ double advance(float alpha, const Buffer<float>& p, const Buffer<float>& q, Buff
   return dot_product(r, r);
 }
 
+double subtract_scaled(float alpha, const Buffer<float>& q, Buffer<float>& r) {
+  const float* const image = raw(q);
+  float* const residual = raw(r);
+  for_each_index(r.size(), [=] ESPDIFF_HD(std::size_t i) { residual[i] -= alpha * image[i]; });
+  return dot_product(r, r);
+}
+
 #else
 
 double Multigrid::precondition(const Buffer<float>& r, Buffer<float>& z) { return cycle_by_planes(0, finest_, r, z); }
@@ -305,7 +312,11 @@ double Multigrid::turn_and_apply(float beta, Buffer<float>& z, Buffer<float>& p)
 }
 
 double advance(float alpha, const Buffer<float>& p, const Buffer<float>& q, Buffer<float>& x, Buffer<float>& r) {
-  return advance_by_runs(alpha, p, q, x, r);
+  return advance_by_runs(alpha, raw(p), raw(q), raw(x), r);
+}
+
+double subtract_scaled(float alpha, const Buffer<float>& q, Buffer<float>& r) {
+  return advance_by_runs(alpha, nullptr, raw(q), nullptr, r);
 }
 
 #endif

@@ -108,5 +108,7 @@ class Multigrid {
 
 /// x += alpha p, r -= alpha q. @returns r . r
 double advance(float alpha, const Buffer<float>& p, const Buffer<float>& q, Buffer<float>& x, Buffer<float>& r);
+/// r -= alpha q. @returns r . r
+double subtract_scaled(float alpha, const Buffer<float>& q, Buffer<float>& r);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

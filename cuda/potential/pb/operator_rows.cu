@@ -36,7 +36,8 @@ ESPDIFF_MULTIVERSION void diagonal_of(const std::uint8_t* codes, float ions, con
 
 }  // namespace
 
-OperatorRows::OperatorRows(const GridOperator& of, Buffer<float>& storage) : of_(of), storage_(storage) {
+OperatorRows::OperatorRows(const GridOperator& of, Buffer<float>& storage)
+    : of_(of), storage_(storage), codes_(of.size.row()) {
   const std::size_t needed = of.packed == nullptr ? 0 : of.size.plane() * kPlanes * kArrays;
   if (storage.size() < needed) storage.assign(needed, 0.0F);
 }
@@ -71,15 +72,23 @@ void OperatorRows::hold(int k) {
   first_ = std::max(first_, k + 1 - kPlanes);
 }
 
+const std::uint8_t* OperatorRows::codes_of(std::size_t row) {
+  const PackedView packed = of_.packed->view();
+  std::uint8_t* next = codes_.data();
+  for (std::uint32_t r = packed.first_run[row]; r < packed.first_run[row + 1]; ++r)
+    next = std::fill_n(next, packed.runs[r].n_points, packed.runs[r].code);
+  return codes_.data();
+}
+
 void OperatorRows::unpack_faces(int k) {
   const PackedView packed = of_.packed->view();
   const std::size_t n = of_.size.row(), ny = static_cast<std::size_t>(of_.size.ny);
   float* const faces[3] = {unpacked(kX, k), unpacked(kY, k), unpacked(kZ, k)};
   for (std::size_t j = 0; j < ny; ++j) {
     const std::size_t row = j + ny * static_cast<std::size_t>(k), first = n * j;
-    usual_faces(packed.codes + row * n, packed.usual.solvent, packed.usual.solute, n, faces[0] + first,
-                faces[1] + first, faces[2] + first);
-    for (std::uint32_t listed = packed.first_of_row[row]; listed < packed.first_of_row[row + 1]; ++listed) {
+    usual_faces(codes_of(row), packed.usual.solvent, packed.usual.solute, n, faces[0] + first, faces[1] + first,
+                faces[2] + first);
+    for (std::uint32_t listed = packed.first_face[row]; listed < packed.first_face[row + 1]; ++listed) {
       const ListedFace& face = packed.listed[listed];
       faces[face.axis()][first + face.point()] = face.dielectric;
     }
@@ -87,13 +96,11 @@ void OperatorRows::unpack_faces(int k) {
 }
 
 void OperatorRows::unpack_diagonal(int k) {
-  const PackedView packed = of_.packed->view();
-  const std::size_t n = of_.size.row();
-  for (int j = 1; j < of_.size.ny - 1; ++j) {
-    const std::size_t first = of_.size.index(0, j, k);
-    diagonal_of(packed.codes + first, packed.usual.ions, at(j, k), n,
-                unpacked(kDiagonal, k) + n * static_cast<std::size_t>(j));
-  }
+  const float ions = of_.packed->view().usual.ions;
+  const std::size_t n = of_.size.row(), ny = static_cast<std::size_t>(of_.size.ny);
+  for (std::size_t j = 1; j < ny - 1; ++j)
+    diagonal_of(codes_of(j + ny * static_cast<std::size_t>(k)), ions, at(static_cast<int>(j), k), n,
+                unpacked(kDiagonal, k) + n * j);
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -6,6 +6,8 @@
 
 #if !defined(ESPDIFF_BACKEND_CUDA)
 
+#include <vector>
+
 #include "cuda/potential/pb/packed_operator.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -36,12 +38,14 @@ class OperatorRows {
   static constexpr int kPlanes = 4;
   const float* plane_of(Array array, int k) const;
   float* unpacked(Array array, int k);
+  const std::uint8_t* codes_of(std::size_t row);
   void unpack_faces(int k);
   void unpack_diagonal(int k);
 
   const GridOperator& of_;
   Buffer<float>& storage_;
-  int first_ = 0, last_ = -1;  ///< planes whose faces are unpacked
+  std::vector<std::uint8_t> codes_;  ///< [point] of one row
+  int first_ = 0, last_ = -1;        ///< planes whose faces are unpacked
 };
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -17,40 +17,39 @@ struct CoefficientArrays {
   }
 };
 
-/// Writes a row's codes. @returns how many of its faces are listed
-ESPDIFF_INLINE std::uint32_t write_codes(const CoefficientArrays<const float>& in, std::size_t of_row,
-                                         std::uint8_t* codes) {
-  std::uint32_t n_listed = 0;
-  for (std::size_t p = of_row * in.row; p < (of_row + 1) * in.row; ++p) {
-    unsigned code = in.k[p] != 0.0F ? PackedView::kIonsBit : 0;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      code |= (in.face(axis)[p] == in.usual.solute ? 1U : 0U) << axis;
-      n_listed += in.face(axis)[p] == in.usual_face(code, axis) ? 0 : 1;
-    }
-    codes[p] = static_cast<std::uint8_t>(code);
-  }
-  return n_listed;
-}
-
-ESPDIFF_INLINE void write_listed(const CoefficientArrays<const float>& in, std::size_t of_row,
-                                 const std::uint8_t* codes, ListedFace* next) {
+/// Calls run(code, number of points) for the runs of a row, and face(4 * point + axis, value) for its listed faces.
+template <typename Run, typename Face>
+ESPDIFF_INLINE void visit_row(const CoefficientArrays<const float>& in, std::size_t of_row, Run run, Face face) {
+  unsigned before = 0, n = 0;
   for (std::size_t i = 0; i < in.row; ++i) {
     const std::size_t p = of_row * in.row + i;
+    unsigned code = in.k[p] != 0.0F ? PackedView::kIonsBit : 0;
     for (unsigned axis = 0; axis < 3; ++axis) {
       const float value = in.face(axis)[p];
-      if (value != in.usual_face(codes[p], axis)) *next++ = {static_cast<std::uint32_t>(4 * i + axis), value};
+      code |= (value == in.usual.solute ? 1U : 0U) << axis;
+      if (value != in.usual_face(code, axis)) face(static_cast<std::uint32_t>(4 * i + axis), value);
     }
+    if (n > 0 && (code != before || n == CodeRun::kMostPoints)) {
+      run(before, n);
+      n = 0;
+    }
+    before = code;
+    ++n;
   }
+  run(before, n);
 }
 
 ESPDIFF_INLINE void read_row(const CoefficientArrays<float>& out, std::size_t of_row, const PackedView& packed) {
   const std::size_t first = of_row * out.row;
-  for (std::size_t p = first; p < first + out.row; ++p) {
-    const unsigned code = packed.codes[p];
-    out.k[p] = (code & PackedView::kIonsBit) != 0 ? out.usual.ions : 0.0F;
-    for (unsigned axis = 0; axis < 3; ++axis) out.face(axis)[p] = out.usual_face(code, axis);
+  std::size_t p = first;
+  for (std::uint32_t r = packed.first_run[of_row]; r < packed.first_run[of_row + 1]; ++r) {
+    const unsigned code = packed.runs[r].code;
+    for (const std::size_t end = p + packed.runs[r].n_points; p < end; ++p) {
+      out.k[p] = (code & PackedView::kIonsBit) != 0 ? out.usual.ions : 0.0F;
+      for (unsigned axis = 0; axis < 3; ++axis) out.face(axis)[p] = out.usual_face(code, axis);
+    }
   }
-  for (std::uint32_t n = packed.first_of_row[of_row]; n < packed.first_of_row[of_row + 1]; ++n) {
+  for (std::uint32_t n = packed.first_face[of_row]; n < packed.first_face[of_row + 1]; ++n) {
     const ListedFace& face = packed.listed[n];
     out.face(face.axis())[first + face.point()] = face.dielectric;
   }
@@ -67,20 +66,40 @@ std::shared_ptr<const PackedOperator> PackedOperator::pack(const GridOperator& o
   auto packed = std::make_shared<PackedOperator>();
   packed->size_ = on_grid.size;
   packed->usual_ = usual;
-  packed->codes_.resize(on_grid.size.points());
-  packed->first_of_row_.assign(n_rows(on_grid.size) + 1, 0);
-  std::uint8_t* const codes = raw(packed->codes_);
-  std::uint32_t* const first = raw(packed->first_of_row_);
+  const std::size_t rows = n_rows(on_grid.size);
+  packed->first_run_.assign(rows + 1, 0);
+  packed->first_face_.assign(rows + 1, 0);
+  std::uint32_t* const first_run = raw(packed->first_run_);
+  std::uint32_t* const first_face = raw(packed->first_face_);
   const CoefficientArrays<const float> all{raw(on_grid.ex),       raw(on_grid.ey), raw(on_grid.ez),
                                            raw(on_grid.diagonal), usual,           on_grid.size.row()};
-  for_each_index(n_rows(on_grid.size), [=] ESPDIFF_HD(std::size_t r) { first[r] = write_codes(all, r, codes); });
-  const std::uint32_t n_listed = exclusive_scan_in_place(packed->first_of_row_);
-  constexpr std::size_t kPointsPerListed = 8;  // more would take as much memory as the codes
+  for_each_index(rows, [=] ESPDIFF_HD(std::size_t r) {
+    std::uint32_t n_runs = 0, n_faces = 0;
+    visit_row(
+        all, r, [&](unsigned, unsigned) { ++n_runs; }, [&](std::uint32_t, float) { ++n_faces; });
+    first_run[r] = n_runs;
+    first_face[r] = n_faces;
+  });
+  const std::uint32_t n_runs = exclusive_scan_in_place(packed->first_run_),
+                      n_listed = exclusive_scan_in_place(packed->first_face_);
+  constexpr std::size_t kPointsPerListed = 8;  // more would take a byte a point
   if (std::size_t{n_listed} * kPointsPerListed > on_grid.size.points()) return nullptr;
+  packed->runs_.resize(n_runs);
   packed->listed_.resize(n_listed);
+  CodeRun* const runs = raw(packed->runs_);
   ListedFace* const listed = raw(packed->listed_);
-  for_each_index(n_rows(on_grid.size),
-                 [=] ESPDIFF_HD(std::size_t r) { write_listed(all, r, codes, listed + first[r]); });
+  for_each_index(rows, [=] ESPDIFF_HD(std::size_t r) {
+    CodeRun* next_run = runs + first_run[r];
+    ListedFace* next_face = listed + first_face[r];
+    visit_row(
+        all, r,
+        [&](unsigned code, unsigned n) {
+          *next_run++ = {static_cast<std::uint8_t>(code), static_cast<std::uint8_t>(n)};
+        },
+        [&](std::uint32_t place, float value) {
+          *next_face++ = {place, value};
+        });
+  });
   return packed;
 }
 

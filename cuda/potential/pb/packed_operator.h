@@ -1,10 +1,10 @@
-// packed_operator.h: the coefficients of a Poisson-Boltzmann operator in a byte a point: what the arrays of
+// packed_operator.h: the coefficients of a Poisson-Boltzmann operator in about half a byte a point: what the arrays of
 // GridOperator hold in sixteen.
 //
-// Nearly all faces have the solute's dielectric or the solvent's, and k is that of ions or zero. A point's byte says
-// which for its three faces and k; other values, of faces that the boundary cuts, are listed. Nothing is rounded. The
-// CPU's sweeps read packed rows (operator_rows.h), so that a solution holds no arrays of coefficients, and readings of
-// its potential need not make them again.
+// Nearly all faces have the solute's dielectric or the solvent's, and k is that of ions or zero. A point's code says
+// which for its three faces and k, and a row has runs of points of one code; other values, of faces that the boundary
+// cuts, are listed. Nothing is rounded. The CPU's sweeps read packed rows (operator_rows.h), so that a solution holds
+// no arrays of coefficients, and readings of its potential need not make them again.
 #pragma once
 
 #include <cstdint>
@@ -29,11 +29,19 @@ struct ListedFace {
   ESPDIFF_INLINE std::uint32_t axis() const { return place % 4; }
 };
 
+/// Points of a row that have one code: a bit for each face (1 solute, 0 solvent), one for k.
+struct CodeRun {
+  std::uint8_t code, n_points;
+
+  static constexpr unsigned kMostPoints = 255;
+};
+
 /// Packed coefficients, for kernels. A row of points along x is numbered y + ny z.
 struct PackedView {
-  const std::uint8_t* codes;          ///< [point] a bit for each face (1 solute, 0 solvent), one for k
-  const std::uint32_t* first_of_row;  ///< [row + 1] of `listed`
-  const ListedFace* listed;           ///< in the order of points, then of x, y, z
+  const std::uint32_t* first_run;   ///< [row + 1] of `runs`
+  const CodeRun* runs;              ///< in the order of points
+  const std::uint32_t* first_face;  ///< [row + 1] of `listed`
+  const ListedFace* listed;         ///< in the order of points, then of x, y, z
   UsualCoefficients usual;
 
   static constexpr unsigned kIonsBit = 8;
@@ -46,13 +54,13 @@ class PackedOperator {
   static std::shared_ptr<const PackedOperator> pack(const GridOperator& on_grid, const UsualCoefficients& usual);
   /// Fills in the coefficients, bit by bit those that were packed; the diagonal holds k alone.
   void unpack(GridOperator& on_grid) const;
-  PackedView view() const { return {raw(codes_), raw(first_of_row_), raw(listed_), usual_}; }
+  PackedView view() const { return {raw(first_run_), raw(runs_), raw(first_face_), raw(listed_), usual_}; }
 
  private:
   GridSize size_;
   UsualCoefficients usual_;
-  Buffer<std::uint8_t> codes_;
-  Buffer<std::uint32_t> first_of_row_;
+  Buffer<std::uint32_t> first_run_, first_face_;
+  Buffer<CodeRun> runs_;
   Buffer<ListedFace> listed_;
 };
 

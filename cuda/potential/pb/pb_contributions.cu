@@ -26,12 +26,13 @@ namespace {
 using AfterCycle = std::function<void(double)>;
 
 /// A residual r of a reading's solution changes the sum of its contributions by r . phi. r oscillates from point to
-/// point, where phi is smooth: at three times the usual 1e-6 the sum changes by at most 6e-6 of the reading. Rounding
-/// y to single precision leaves a residual A d, larger than that (1.5e-5), which changes the sum by d . b alone, the
-/// rounding at the charges. docs/causes.md has a reading that nearly cancels.
-double reading_tolerance(const PoissonBoltzmannOptions& options) {
-  constexpr double kFactor = 3, kLargest = 1e-4;
-  return std::max(options.tolerance, std::min(kFactor * options.tolerance, kLargest));
+/// point, where phi is smooth: at three times the usual 1e-6 the sum changes by at most 7e-7 kT/e where potentials are
+/// about 1 kT/e, that is by 5e-6 of a reading of which a tenth is left. Where less is left, the tolerance is smaller in
+/// proportion; below a tenth of the potential's, the potential's own residual is the larger one.
+double reading_tolerance(const PoissonBoltzmannOptions& options, double share_left) {
+  constexpr double kLargest = 1e-4, kLargestFactor = 3, kLeastFactor = 0.1, kFactorOfShare = 25;
+  const double factor = std::max(kLeastFactor, std::min(kLargestFactor, kFactorOfShare * share_left));
+  return std::min(factor * options.tolerance, std::max(options.tolerance, kLargest));
 }
 
 /// The transposes on one grid, for several readings. All is public: nvcc takes no device lambdas in private members.
@@ -57,24 +58,26 @@ struct TransposedProblem {
     add_faces_to_diagonal(on_grid_);
     multigrid_ = std::make_unique<Multigrid>(on_grid_);
     find_border_faces();
-    CoefficientBuffers spare = hold_packed(on_grid_, packed);
-    y_ = std::move(spare.diagonal);
-    work_ = std::make_unique<SolverWork>(lattice.n_points(), std::move(spare));
-    y_.assign(lattice.n_points(), 0.0F);
+    work_ = std::make_unique<SolverWork>(lattice.n_points(), hold_packed(on_grid_, packed));
+    place_charges();
   }
 
   /// Adds S^t y to the sums of unit charges, and leaves the gradient on the border.
   /// @param reading g, on this grid's points
   /// @param sums    [charge]
-  void add_inner(const SparseValues& reading, const AfterCycle& step, std::vector<double>& sums) {
+  void add_inner(const SparseValues& reading, double share_left, const AfterCycle& step, std::vector<double>& sums) {
     SparseValues inner, border;
     for (std::size_t n = 0; n < reading.point.size(); ++n) {
       SparseValues& part = is_border(reading.point[n]) ? border : inner;
       part.point.push_back(reading.point[n]);
       part.value.push_back(reading.value[n]);
     }
-    solve(inner, step);
-    add_charges(sums);
+    at_charges_.assign(place_.size(), 0.0);
+    for (BorderFaces& faces : border_faces_) faces.gradient.assign(faces.point.size(), 0.0F);
+    solve(inner, reading_tolerance(origin_.pb, share_left), step);
+    const std::vector<double> found = to_host(at_charges_);
+    const double scale = charge_scale(lattice_, constants_.coulomb);
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += scale * found[i];
     set_border_gradient(border);
   }
 
@@ -103,28 +106,25 @@ struct TransposedProblem {
     for_each_index(points.size(), [=] ESPDIFF_HD(std::size_t n) { to[point[n]] += value[n]; });
   }
 
-  /// y = A_ii^-1 g.
-  void solve(const SparseValues& inner, const AfterCycle& step) {
-    y_.assign(y_.size(), 0.0F);
-    const RightHandSide set_g = [&](Buffer<float>& g) {
-      g.assign(y_.size(), 0.0F);
-      add_to(g, inner);
-    };
+  /// Adds up S^t y and A_bi y of y = A_ii^-1 g.
+  void solve(const SparseValues& inner, double tolerance, const AfterCycle& step) {
     SolverOptions solver;
-    solver.tolerance = reading_tolerance(origin_.pb);
+    solver.tolerance = tolerance;
     solver.max_cycles = origin_.pb.max_cycles;
-    constexpr double kRounding = 1e-4;
-    solver.rounding = std::max(solver.tolerance, kRounding);
     solver.norm = 0;
     for (const float value : inner.value) solver.norm += static_cast<double>(value) * static_cast<double>(value);
     solver.norm = std::sqrt(solver.norm);
     if (solver.norm == 0) return;
-    const SolverReport solved = conjugate_gradients(on_grid_, *multigrid_, set_g, solver, *work_, y_, step);
-    require_converged(origin_.pb, solved, 0);
+    work_->r.assign(work_->r.size(), 0.0F);
+    add_to(work_->r, inner);
+    const TakeDirection take = [&](double alpha, const Buffer<float>& p) {
+      add_at_charges(alpha, p);
+      add_at_border(static_cast<float>(alpha), p);
+    };
+    require_converged(origin_.pb, conjugate_gradients(*multigrid_, solver, *work_, take, step), 0);
   }
 
-  /// S^t y: the spline of each charge over y, in double precision, since many charges' parts cancel.
-  void add_charges(std::vector<double>& sums) const {
+  void place_charges() {
     std::vector<Vec3d> places;
     const double h = static_cast<double>(lattice_.spacing);
     for (const PbAtom& atom : atoms_) {
@@ -133,13 +133,16 @@ struct TransposedProblem {
         u[axis] = (atom.position[axis] - static_cast<double>(lattice_.origin[axis])) / h;
       places.push_back(u);
     }
-    const Buffer<Vec3d> sent = to_device(places);
-    Buffer<double> found(places.size());
-    const Vec3d* const at = raw(sent);
-    double* const out = raw(found);
-    const float* const y = raw(y_);
+    place_ = to_device(places);
+  }
+
+  /// The spline of each charge over alpha p, in double precision, since many charges' parts cancel.
+  void add_at_charges(double alpha, const Buffer<float>& p) {
+    const Vec3d* const at = raw(place_);
+    const float* const from = raw(p);
+    double* const sums = raw(at_charges_);
     const GridSize size = grid_size_;
-    for_each_index(places.size(), [=] ESPDIFF_HD(std::size_t i) {
+    for_each_index(place_.size(), [=] ESPDIFF_HD(std::size_t i) {
       constexpr int kCubic = 4;
       const int n[3] = {size.nx, size.ny, size.nz};
       int base[3];
@@ -154,15 +157,26 @@ struct TransposedProblem {
         for (int b = 0; b < kCubic; ++b) {
           const std::size_t row = size.index(base[0], base[1] + b, base[2] + c);
           double along = 0;
-          for (std::size_t a = 0; a < kCubic; ++a) along += weight[0][a] * static_cast<double>(y[row + a]);
+          for (std::size_t a = 0; a < kCubic; ++a) along += weight[0][a] * static_cast<double>(from[row + a]);
           sum += weight[2][c] * weight[1][b] * along;
         }
       }
-      out[i] = sum;
+      sums[i] += alpha * sum;
     });
-    const std::vector<double> values = to_host(found);
-    const double scale = charge_scale(lattice_, constants_.coulomb);
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += scale * values[i];
+  }
+
+  void add_at_border(float alpha, const Buffer<float>& p) {
+    const float* const from = raw(p);
+    for (BorderFaces& faces : border_faces_) {
+      const std::size_t* const point = raw(faces.point);
+      const float* const dielectric = raw(faces.dielectric);
+      float* const gradient = raw(faces.gradient);
+      const std::size_t step = faces.step;
+      const bool is_first = faces.is_first;
+      for_each_index(faces.point.size(), [=] ESPDIFF_HD(std::size_t n) {
+        gradient[n] += alpha * dielectric[n] * from[is_first ? point[n] + step : point[n] - step];
+      });
+    }
   }
 
   /// The faces between a point of the border and an inner point. Border points of two faces of the grid have none.
@@ -179,7 +193,7 @@ struct TransposedProblem {
         }
       }
       const auto keep = [&](const std::vector<std::size_t>& border, bool is_first) {
-        BorderFaces kept{to_device(border), Buffer<float>(border.size()), step[axis], is_first};
+        BorderFaces kept{to_device(border), Buffer<float>(border.size()), {}, step[axis], is_first};
         const std::size_t* const point = raw(kept.point);
         const float* const from = raw(*faces[axis]);
         float* const to = raw(kept.dielectric);
@@ -194,18 +208,12 @@ struct TransposedProblem {
 
   /// The solver's r, on the border, = the reading's gradient there, g_b - A_bi y.
   void set_border_gradient(const SparseValues& border) {
-    const float* const y = raw(y_);
     float* const g = raw(work_->r);
     work_->r.assign(work_->r.size(), 0.0F);
     for (const BorderFaces& faces : border_faces_) {
       const std::size_t* const point = raw(faces.point);
-      const float* const dielectric = raw(faces.dielectric);
-      const std::size_t step = faces.step;
-      const bool is_first = faces.is_first;
-      for_each_index(faces.point.size(), [=] ESPDIFF_HD(std::size_t n) {
-        const std::size_t p = point[n];
-        g[p] = dielectric[n] * y[is_first ? p + step : p - step];
-      });
+      const float* const gradient = raw(faces.gradient);
+      for_each_index(faces.point.size(), [=] ESPDIFF_HD(std::size_t n) { g[point[n]] = gradient[n]; });
     }
     add_to(work_->r, border);
   }
@@ -224,7 +232,7 @@ struct TransposedProblem {
   /// it.
   WeightedPlaces border_in(const MapGrid& around) const {
     std::vector<std::size_t> points;
-    for (std::size_t p = 0; p < y_.size(); ++p) {
+    for (std::size_t p = 0; p < grid_size_.points(); ++p) {
       if (is_border(p)) points.push_back(p);
     }
     const std::vector<float> gradient = gradient_at(points);
@@ -257,13 +265,15 @@ struct TransposedProblem {
   GridOperator on_grid_;
   std::unique_ptr<Multigrid> multigrid_;
   std::unique_ptr<SolverWork> work_;
-  Buffer<float> y_;
+  Buffer<Vec3d> place_;        ///< [charge] in grid spacings
+  Buffer<double> at_charges_;  ///< [charge] S^t y, without its scale
   /// Of one side of the grid.
   struct BorderFaces {
     Buffer<std::size_t> point;
     Buffer<float> dielectric;
-    std::size_t step;  ///< to the inner point
-    bool is_first;     ///< whether that is the next point along the axis, not the one before
+    Buffer<float> gradient;  ///< the dielectric times y at the inner point
+    std::size_t step;        ///< to the inner point
+    bool is_first;           ///< whether that is the next point along the axis, not the one before
   };
   std::vector<BorderFaces> border_faces_;
 };
@@ -292,7 +302,7 @@ void require_probes_inside(const MapOrigin& origin, const CubicLattice& lattice,
 
 }  // namespace
 
-std::vector<std::vector<double>> pb_contributions(const MapGrid& map, const std::vector<WeightedPlaces>& readings,
+std::vector<std::vector<double>> pb_contributions(const MapGrid& map, const std::vector<PotentialReading>& readings,
                                                   const std::vector<ProbeCharge>& probes, const Progress& progress) {
   const MapOrigin& origin = *map.origin;
   if (origin.pb.nonlinear && origin.pb.ionic_strength > 0)
@@ -311,7 +321,8 @@ std::vector<std::vector<double>> pb_contributions(const MapGrid& map, const std:
   std::vector<std::vector<double>> result(readings.size(), std::vector<double>(atoms.size(), 0.0));
   const auto step_of = [&](std::size_t solution) {
     return [&, solution](double residual) {
-      const double part = std::log(residual) / std::log(reading_tolerance(origin.pb));
+      const double tolerance = reading_tolerance(origin.pb, readings[solution % readings.size()].share_left);
+      const double part = std::log(residual) / std::log(tolerance);
       progress.report("causes", (static_cast<double>(solution) + std::min(1.0, std::max(0.0, part))) / n_solutions);
     };
   };
@@ -322,7 +333,8 @@ std::vector<std::vector<double>> pb_contributions(const MapGrid& map, const std:
   {
     TransposedProblem problem(origin, atoms, map.lattice, lattice, origin.pb_operator);
     for (std::size_t r = 0; r < readings.size(); ++r) {
-      problem.add_inner(spread_linearly(map, readings[r]), step_of(r), result[r]);
+      problem.add_inner(spread_linearly(map, weighted_places(map, readings[r])), readings[r].share_left, step_of(r),
+                        result[r]);
       if (has_wider) borders.push_back(problem.border_in(around));
       if (!has_wider) problem.add_border(result[r]);
     }
@@ -330,7 +342,8 @@ std::vector<std::vector<double>> pb_contributions(const MapGrid& map, const std:
   if (has_wider) {
     TransposedProblem problem(origin, atoms, around.lattice, twice_as_wide(lattice, around.lattice), nullptr);
     for (std::size_t r = 0; r < readings.size(); ++r) {
-      problem.add_inner(spread_linearly(around, borders[r]), step_of(readings.size() + r), result[r]);
+      problem.add_inner(spread_linearly(around, borders[r]), readings[r].share_left, step_of(readings.size() + r),
+                        result[r]);
       problem.add_border(result[r]);
     }
   }

@@ -193,4 +193,9 @@ ESPDIFF_MULTIVERSION void advance_run(float alpha, const float* p, const float* 
   }
 }
 
+ESPDIFF_MULTIVERSION void subtract_scaled_run(float alpha, const float* q, std::size_t n, float* r) {
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n; ++i) r[i] -= alpha * q[i];
+}
+
 }  // namespace espdiff::ESPDIFF_BACKEND

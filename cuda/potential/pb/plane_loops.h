@@ -42,6 +42,8 @@ void turn_plane(float beta, const float* z, const float* from, std::size_t n, fl
 double dot_run(const float* a, const float* b, std::size_t n);
 /// x += alpha p, r -= alpha q.
 void advance_run(float alpha, const float* p, const float* q, std::size_t n, float* x, float* r);
+/// r -= alpha q.
+void subtract_scaled_run(float alpha, const float* q, std::size_t n, float* r);
 
 }  // namespace espdiff::ESPDIFF_BACKEND
 

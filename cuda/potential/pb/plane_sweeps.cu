@@ -200,19 +200,19 @@ void subtract_exactly_by_rows(const GridOperator& a, const Buffer<float>& x, con
   });
 }
 
-double advance_by_runs(float alpha, const Buffer<float>& p, const Buffer<float>& q, Buffer<float>& x,
-                       Buffer<float>& r) {
+double advance_by_runs(float alpha, const float* p, const float* q, float* x, Buffer<float>& r) {
   constexpr std::size_t kRun = 16384;
-  const std::size_t n = x.size(), n_runs = (n + kRun - 1) / kRun;
+  const std::size_t n = r.size(), n_runs = (n + kRun - 1) / kRun;
   std::vector<double> squares(n_runs, 0.0);
-  const float* const along = raw(p);
-  const float* const image = raw(q);
-  float* const position = raw(x);
   float* const residual = raw(r);
   double* const of_run = squares.data();
   for_each_index(n_runs, [=](std::size_t run) {
     const std::size_t first = run * kRun, length = std::min(kRun, n - first);
-    advance_run(alpha, along + first, image + first, length, position + first, residual + first);
+    if (x != nullptr) {
+      advance_run(alpha, p + first, q + first, length, x + first, residual + first);
+    } else {
+      subtract_scaled_run(alpha, q + first, length, residual + first);
+    }
     of_run[run] = dot_run(residual + first, residual + first, length);
   });
   return total_of(squares);

@@ -42,7 +42,8 @@ void subtract_exactly_by_rows(const GridOperator& a, const Buffer<float>& x, con
                               Buffer<float>& r);
 
 /// x += alpha p, r -= alpha q. @returns r . r
-double advance_by_runs(float alpha, const Buffer<float>& p, const Buffer<float>& q, Buffer<float>& x, Buffer<float>& r);
+/// @param p, x [point of r], or null where there is no x
+double advance_by_runs(float alpha, const float* p, const float* q, float* x, Buffer<float>& r);
 
 }  // namespace espdiff::ESPDIFF_BACKEND
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <numeric>
 
 #include "base/error.h"
@@ -25,9 +26,11 @@ namespace fs = std::filesystem;
 constexpr const char* kNotRead = "cannot be read back as it was written; is the disk full, or damaged?";
 
 /// Never 0, which means that a frame was not written.
-std::uint64_t checksum(std::size_t frame, const std::vector<float>& values, const std::vector<double>& numbers,
-                       const std::string& note) {
+/// @param trusted empty in files of earlier versions
+std::uint64_t checksum(std::size_t frame, const std::vector<float>& values, const std::vector<std::uint8_t>& trusted,
+                       const std::vector<double>& numbers, const std::string& note) {
   std::uint64_t sum = add_to_checksum(kChecksumStart ^ frame, values.data(), values.size() * sizeof(float));
+  sum = add_to_checksum(sum, trusted.data(), trusted.size());
   sum = add_to_checksum(sum, numbers.data(), numbers.size() * sizeof(double));
   sum = add_to_checksum(sum, note.data(), note.size());
   return sum == 0 ? 1 : sum;
@@ -145,12 +148,20 @@ struct EnsembleFile::Contents {
       if (sums[f] == 0) continue;
       read_file_at(file, path, layout.values[f], values.data(), values.size() * sizeof(float));
       const std::vector<double> row = numbers(f);
-      done[f] = sums[f] == checksum(f, values, row, note(f)) ? 1 : 0;
+      done[f] = sums[f] == checksum(f, values, trusted(f), row, note(f)) ? 1 : 0;
       if (done[f] == 0) ++n_damaged;
       if (done[f] == 0) continue;
       check_potentials(path, f, values);
       check_potentials(path, f, row);
     }
+  }
+
+  /// [vertex of `frame`, a place in the file]
+  std::vector<std::uint8_t> trusted(std::size_t frame) const {
+    if (layout.trusted.empty()) return {};
+    std::vector<std::uint8_t> flags(layout.n_vertices);
+    read_file_at(file, path, layout.trusted[frame], flags.data(), flags.size());
+    return flags;
   }
 
   std::vector<double> numbers(std::size_t frame) const {
@@ -165,14 +176,17 @@ struct EnsembleFile::Contents {
     return text;
   }
 
-  void write(std::size_t frame, const std::vector<float>& values, const std::vector<double>& row,
-             const std::string& text) {
+  /// @param flags as trusted()
+  void write(std::size_t frame, const std::vector<float>& values, std::vector<std::uint8_t> flags,
+             const std::vector<double>& row, const std::string& text) {
     check_potentials(path, frame, values);
     check_potentials(path, frame, row);
-    const std::uint64_t none = 0, sum = checksum(frame, values, row, text);
+    flags.resize(layout.trusted.empty() ? 0 : values.size(), 1);
+    const std::uint64_t none = 0, sum = checksum(frame, values, flags, row, text);
     const std::uint64_t place = layout.checksums + frame * sizeof sum;
     write_at(file, path, place, &none, sizeof none);
     write_at(file, path, layout.values[frame], values.data(), values.size() * sizeof(float));
+    if (!flags.empty()) write_at(file, path, layout.trusted[frame], flags.data(), flags.size());
     write_at(file, path, layout.numbers + frame * row.size() * sizeof(double), row.data(), row.size() * sizeof(double));
     write_at(file, path, layout.notes + frame * kNoteBytes, text.data(), text.size());
     write_at(file, path, place, &sum, sizeof sum);
@@ -236,11 +250,12 @@ void EnsembleFile::finish() {
   if (error != 0) throw IoError(path(), "cannot be written: " + system_message(error));
 }
 
-void EnsembleFile::write(std::size_t frame, const std::vector<float>& values, const EnsembleFrame& n) {
+void EnsembleFile::write(std::size_t frame, const std::vector<float>& values, const EnsembleFrame& n,
+                         const std::vector<std::uint8_t>& trusted) {
   const std::vector<double> row = {
       n.rmsd_A,         n.unmatched_template,     n.unmatched_frame, n.distance_A, n.same_residue_area_fraction,
       n.mean_potential, n.trustworthy ? 1.0 : 0.0};
-  contents_->write(frame, values, row, padded(n.note));
+  contents_->write(frame, values, trusted, row, padded(n.note));
 }
 
 EnsembleFrame EnsembleFile::numbers(std::size_t frame) const {
@@ -251,6 +266,16 @@ EnsembleFrame EnsembleFile::numbers(std::size_t frame) const {
 }
 
 void EnsembleFile::read_values(std::size_t frame, std::size_t begin, std::size_t end, float* values) const {
+  read_all_values(frame, begin, end, values);
+  if (contents_->layout.trusted.empty()) return;
+  std::vector<std::uint8_t> trusted(end - begin);
+  read_file_at(contents_->file, contents_->path, contents_->layout.trusted[contents_->chosen[frame]] + begin,
+               trusted.data(), trusted.size());
+  for (std::size_t v = 0; v < trusted.size(); ++v)
+    if (trusted[v] == 0) values[v] = std::numeric_limits<float>::quiet_NaN();
+}
+
+void EnsembleFile::read_all_values(std::size_t frame, std::size_t begin, std::size_t end, float* values) const {
   read_file_at(contents_->file, contents_->path,
                contents_->layout.values[contents_->chosen[frame]] + begin * sizeof(float), values,
                (end - begin) * sizeof(float));
@@ -267,8 +292,9 @@ std::size_t EnsembleFile::place_in_run(std::size_t frame) const {
 
 void EnsembleFile::copy(std::size_t frame, const EnsembleFile& from) {
   std::vector<float> values(n_vertices());
-  from.read_values(frame, 0, n_vertices(), values.data());
-  contents_->write(frame, values, from.contents_->numbers(frame), from.contents_->note(frame));
+  from.read_all_values(frame, 0, n_vertices(), values.data());
+  contents_->write(frame, values, from.contents_->trusted(frame), from.contents_->numbers(frame),
+                   from.contents_->note(frame));
 }
 
 bool is_hdf5_file(const std::string& path) {

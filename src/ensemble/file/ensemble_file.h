@@ -22,7 +22,8 @@ struct EnsembleFrame {
 };
 
 /// An HDF5 file in the VTKHDF layout (PolyData with steps), which ParaView, VTK and h5py read: the template's surface,
-/// and `potential`, [frame][vertex], chunked by frame. The group `espdiff` has the plan and the frames' numbers.
+/// `potential`, and where it is `trusted` (1, otherwise 0), both [frame][vertex], chunked by frame. The group `espdiff`
+/// has the plan and the frames' numbers.
 ///
 /// All space is laid out when the file is made, metadata first; it is sparse until it is written. After that no
 /// metadata changes: a frame is written to its place, and its checksum after it. So the bytes of a finished file do not
@@ -52,12 +53,16 @@ class EnsembleFile {
   std::size_t n_done() const;
   /// Frames that were begun or damaged: they have a checksum, which is wrong.
   std::size_t n_damaged() const;
-  /// @param values [vertex]. @throws IoError (disk full), FormatError (a potential beyond 10^9)
-  void write(std::size_t frame, const std::vector<float>& values, const EnsembleFrame& numbers);
+  /// @param values [vertex]  @param trusted [vertex] nonzero where the mapping is trusted; empty: everywhere
+  /// @throws IoError (disk full), FormatError (a potential beyond 10^9)
+  void write(std::size_t frame, const std::vector<float>& values, const EnsembleFrame& numbers,
+             const std::vector<std::uint8_t>& trusted = {});
   /// @throws IoError
   EnsembleFrame numbers(std::size_t frame) const;
-  /// Values of the vertices from `begin` to `end`. @throws IoError
+  /// Values of the vertices from `begin` to `end`; NaN where the mapping onto the frame is not trusted. @throws IoError
   void read_values(std::size_t frame, std::size_t begin, std::size_t end, float* values) const;
+  /// The same, trusted or not. @throws IoError
+  void read_all_values(std::size_t frame, std::size_t begin, std::size_t end, float* values) const;
   /// Closes the file. @throws IoError (what was written has not arrived)
   void finish();
   /// From now on the file's frames are these, in this order, under another plan; it cannot be written any more.

@@ -21,6 +21,7 @@ namespace {
 
 /// Two: of plan and template, and of every byte but the frames'.
 constexpr const char* kHeadChecksum = "/espdiff/head_checksum";
+constexpr const char* kTrusted = "/VTKHDF/PointData/trusted";
 constexpr const char* kRemedy = "; begin anew with another output, or with ";
 
 IoError not_written(const std::string& path) { return {path, "cannot be written; is the disk full?"}; }
@@ -174,7 +175,8 @@ void make_steps(const Maker& make, std::size_t n_frames, std::size_t n_vertices)
   make.dataset("/VTKHDF/Steps/CellOffsets", H5T_STD_I64LE, {n_frames, 4}, four.data());
   make.dataset("/VTKHDF/Steps/ConnectivityIdOffsets", H5T_STD_I64LE, {n_frames, 4}, four.data());
   make.group("/VTKHDF/Steps/PointDataOffsets");
-  make.dataset("/VTKHDF/Steps/PointDataOffsets/potential", H5T_STD_I64LE, offsets);
+  for (const char* name : {"potential", "trusted"})
+    make.dataset(std::string("/VTKHDF/Steps/PointDataOffsets/") + name, H5T_STD_I64LE, offsets);
 }
 
 void make_surface(const Maker& make, const TemplateSurface& surface, std::size_t n_frames) {
@@ -233,7 +235,7 @@ std::vector<Written> make_by_hdf5(const std::string& place, const std::string& p
                                   const TemplateSurface& surface, const std::string& unit, std::size_t n_frames) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path, "a property");
   // The index of the chunks goes before the chunks, so that a file that lost its end can still be opened.
-  H5Pset_meta_block_size(access, (hsize_t{1} << 20) + 128 * n_frames);
+  H5Pset_meta_block_size(access, (hsize_t{1} << 20) + 256 * n_frames);
 #if H5_VERSION_GE(1, 10, 7)
   H5Pset_file_locking(access, false, true);  // the file is locked by who made it
 #endif
@@ -258,6 +260,7 @@ std::vector<Written> make_by_hdf5(const std::string& place, const std::string& p
   for (const std::string& column : frame_columns()) names += (names.empty() ? "" : " ") + column;
   make.text_attribute("/espdiff/frame_numbers", "columns", names);
   const hsize_t n = surface.positions.size();
+  make.dataset(kTrusted, H5T_STD_U8LE, {n * n_frames}, nullptr, n);  // before the values: an end that is lost costs few
   make.dataset("/VTKHDF/PointData/potential", H5T_IEEE_F32LE, {n * n_frames}, nullptr, n);
   make.text_attribute("/VTKHDF/PointData/potential", "unit", unit);
   if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw not_written(path);
@@ -282,6 +285,7 @@ std::uint64_t structure_checksum(const OpenFile& file, const std::string& path, 
       {layout.checksums, layout.n_frames * sizeof(std::uint64_t)},
       {own_place.address, own_place.n * sizeof(std::uint64_t)}};
   for (const std::uint64_t values : layout.values) left_out.emplace_back(values, layout.n_vertices * sizeof(float));
+  for (const std::uint64_t trusted : layout.trusted) left_out.emplace_back(trusted, layout.n_vertices);
   left_out.emplace_back(file.size(), 0);
   std::sort(left_out.begin(), left_out.end());
   std::uint64_t sum = kChecksumStart, at = 0;
@@ -302,7 +306,7 @@ std::uint64_t structure_checksum(const OpenFile& file, const std::string& path, 
 
 EnsembleContents read_contents(const OpenFile& file, const std::string& path) {
   const Hdf5Reader reader(file, path);
-  if (!reader.has("espdiff")) throw FormatError(path, 0, "an HDF5 file, but not one of `espdiff ensemble`");
+  if (!reader.has("/espdiff")) throw FormatError(path, 0, "an HDF5 file, but not one of `espdiff ensemble`");
   EnsembleContents contents;
   const auto plan = reader.read<char>("/espdiff/plan", 'u');
   contents.plan.assign(plan.begin(), plan.end());
@@ -325,6 +329,13 @@ EnsembleContents read_contents(const OpenFile& file, const std::string& path) {
     throw FormatError(path, 0,
                       values.name + " is of another size than the template" + kRemedy + switched_on("overwrite"));
   layout.values = std::move(values.chunks);
+  if (reader.has(kTrusted)) {
+    Hdf5Dataset trusted = reader.find(kTrusted);
+    if (trusted.item_bytes != 1 || trusted.chunk_items != layout.n_vertices || trusted.chunks.size() != layout.n_frames)
+      throw FormatError(path, 0,
+                        trusted.name + " is of another size than the template" + kRemedy + switched_on("overwrite"));
+    layout.trusted = std::move(trusted.chunks);
+  }
   layout.checksums = place_of(reader, path, "/espdiff/frame_checksums", layout.n_frames, sizeof(std::uint64_t));
   layout.numbers =
       place_of(reader, path, "/espdiff/frame_numbers", layout.n_frames * frame_columns().size(), sizeof(double));

@@ -25,10 +25,11 @@ std::uint64_t add_to_checksum(std::uint64_t sum, const void* bytes, std::size_t 
 /// Byte offsets in the file.
 struct EnsembleLayout {
   std::size_t n_frames = 0, n_vertices = 0;
-  std::vector<std::uint64_t> values;  ///< [frame] of [vertex] 32-bit floats
-  std::uint64_t numbers = 0;          ///< [frame][column] 64-bit floats
-  std::uint64_t notes = 0;            ///< [frame][kNoteBytes] text, filled up with zeros
-  std::uint64_t checksums = 0;        ///< [frame] 64 bits; 0: not written
+  std::vector<std::uint64_t> values;   ///< [frame] of [vertex] 32-bit floats
+  std::vector<std::uint64_t> trusted;  ///< [frame] of [vertex] bytes, 0 or 1; empty in files of earlier versions
+  std::uint64_t numbers = 0;           ///< [frame][column] 64-bit floats
+  std::uint64_t notes = 0;             ///< [frame][kNoteBytes] text, filled up with zeros
+  std::uint64_t checksums = 0;         ///< [frame] 64 bits; 0: not written
 };
 
 /// Writes the file's metadata, plan and template, reserves the rest, and reads back what it wrote.

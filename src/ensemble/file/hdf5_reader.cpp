@@ -134,7 +134,17 @@ std::uint64_t Hdf5Reader::member(std::uint64_t group_header, const std::string& 
   return 0;
 }
 
-bool Hdf5Reader::has(const std::string& name) const { return member(root_, name) != 0; }
+bool Hdf5Reader::has(const std::string& name) const { return header_of(name) != 0; }
+
+std::uint64_t Hdf5Reader::header_of(const std::string& name) const {
+  std::uint64_t header = root_;
+  for (std::size_t begin = 1; begin <= name.size() && header != 0;) {
+    const std::size_t end = std::min(name.find('/', begin), name.size());
+    header = member(header, name.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return header;
+}
 
 void Hdf5Reader::add_chunks(std::uint64_t node, int depth, std::size_t& n_nodes, Hdf5Dataset& set) const {
   // A key: bytes of the chunk, filters left out, place of its first element, 0; then the child.
@@ -162,13 +172,8 @@ void Hdf5Reader::add_chunks(std::uint64_t node, int depth, std::size_t& n_nodes,
 Hdf5Dataset Hdf5Reader::find(const std::string& name) const {
   Hdf5Dataset set;
   set.name = name;
-  std::uint64_t header = root_;
-  for (std::size_t begin = 1; begin <= name.size();) {
-    const std::size_t end = std::min(name.find('/', begin), name.size());
-    header = member(header, name.substr(begin, end - begin));
-    if (header == 0) fail(name + " is missing or damaged");
-    begin = end + 1;
-  }
+  const std::uint64_t header = header_of(name);
+  if (header == 0) fail(name + " is missing or damaged");
   std::uint64_t n = 0, n_stored = 0, tree = 0;
   bool has_size = false, has_type = false, has_layout = false;
   for (const Message& message : messages(header)) {

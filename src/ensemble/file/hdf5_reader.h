@@ -35,7 +35,7 @@ class Hdf5Reader {
   /// @throws FormatError (not such a file)
   Hdf5Reader(const OpenFile& file, std::string path);
 
-  /// Whether the root group has a group or dataset of this name.
+  /// Whether there is a group or dataset of this path from the root.
   bool has(const std::string& name) const;
   /// A dataset by its path from the root: "/espdiff/plan". @throws FormatError (missing, damaged, of another form)
   Hdf5Dataset find(const std::string& name) const;
@@ -61,6 +61,8 @@ class Hdf5Reader {
   std::string block(std::uint64_t address, std::uint64_t n) const;
   std::size_t checked_size(const Hdf5Dataset& set, char kind, std::size_t item_bytes, std::size_t per_item) const;
   std::vector<Message> messages(std::uint64_t header) const;
+  /// The address of the object header at a path from the root; 0 if there is none.
+  std::uint64_t header_of(const std::string& name) const;
   /// The address of the object header of a group's member; 0 if there is none.
   std::uint64_t member(std::uint64_t group_header, const std::string& name) const;
   /// @param n_nodes counts the nodes of the tree: those of a damaged one may be each other's children

@@ -172,7 +172,7 @@ std::vector<EnsembleCauses> find_ensemble_causes(Engine& engine, const CompareIn
     const double share = static_cast<double>(i) / static_cast<double>(frames.size());
     const Progress inner([&](const std::string&, double) { progress.report(text, share); });
     inner.report("read", 0.0);
-    const TemplateFrame frame = mapping.map(read(frames[i]), false, inner);
+    const TemplateFrame frame = mapping.map(read(frames[i]), inner);
     for (std::size_t r = 0; r < areas.size(); ++r) {
       const FrameReading& reading = frame.readings[r];
       if (!std::isfinite(reading.mean)) continue;  // nothing of the patch has a value in this frame

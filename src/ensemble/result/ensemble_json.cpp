@@ -44,7 +44,8 @@ Json replicates_json(const EnsembleResult& result) {
                    {"trend_share", json_number(r.drift.share)},
                    {"trend_p", json_number(r.drift.p)},
                    {"mean_potential", json_number(r.mean_potential)},
-                   {"mean_rmsd_A", json_number(r.mean_rmsd_A)}});
+                   {"mean_rmsd_A", json_number(r.mean_rmsd_A)},
+                   {"trusted_area_fraction", json_number(r.trusted_area_fraction)}});
   return all;
 }
 
@@ -151,9 +152,10 @@ Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
   json["n_vertices"] = file.n_vertices();
   json["area_A2"] = result.area_A2;
   json["tested_area_A2"] = result.tested_area_A2;
+  json["tested_area_fraction"] = result.tested_share();
   json["replicates"] = replicates_json(result);
   // What a frame's `trustworthy` says nothing about.
-  json["not_checked"] = {"slip", "round_trip", "residues"};
+  json["not_checked"] = {"round_trip", "residues"};
   if (result.compares) json["test"] = test_json(result);
   json["noise_floor"] = noise_json(result);
   for (std::size_t k = 0; k < result.fixed_patches.size(); ++k) {

@@ -46,7 +46,8 @@ struct Analysis {
   EnsembleResult result{};
   std::unique_ptr<EnsembleColumns> values{};
   std::vector<ReplicateColumns> columns{};
-  Means means{};  ///< [replicate][vertex], NaN where not tested
+  std::vector<double> n_mapped{};  ///< [replicate] frames that count, without those that failed
+  Means means{};                   ///< [replicate][vertex], NaN where not tested
 
   const EnsemblePlan& plan() const { return file.plan(); }
   std::size_t n_vertices() const { return file.n_vertices(); }
@@ -69,25 +70,33 @@ struct Analysis {
     }
   }
 
+  void count_mapped(const std::vector<std::size_t>& starts) {
+    for (std::size_t r = 0, first = 0; r < starts.size(); first += plan().replicates[r++].n_frames) {
+      n_mapped.push_back(0);
+      for (std::size_t f = starts[r]; f < plan().replicates[r].n_frames; ++f)
+        n_mapped.back() += std::isfinite(file.numbers(first + f).mean_potential) ? 1 : 0;
+    }
+  }
+
   void make_group(const std::string& name) {
     GroupColumns group;
     group.name = name;
     const std::vector<std::size_t> members = plan().replicates_of(name);
     group.n_replicates = members.size();
     for (std::size_t v = 0; v < n_vertices(); ++v) {
-      double mean = 0, variance = 0, effective = 0, present = 0, frames = 0;
+      double mean = 0, variance = 0, effective = 0, trusted = 0, frames = 0;
       for (const std::size_t r : members) {
         const SeriesSummary& s = columns[r].columns[v];
         mean += s.mean / static_cast<double>(members.size());
         variance += s.variance / static_cast<double>(members.size());
         effective += std::isfinite(s.effective) ? s.effective : 0;
-        present += static_cast<double>(s.n);
-        frames += static_cast<double>(columns[r].n_frames);
+        trusted += static_cast<double>(s.n);
+        frames += n_mapped[r];
       }
       group.mean.push_back(mean);
       group.deviation.push_back(std::sqrt(variance));
       group.effective.push_back(effective);
-      group.present.push_back(present / frames);
+      group.trusted.push_back(trusted / frames);
     }
     result.groups.push_back(std::move(group));
   }
@@ -96,15 +105,16 @@ struct Analysis {
     result.tested.assign(n_vertices(), 1);
     for (std::size_t v = 0; v < n_vertices(); ++v) {
       for (const GroupColumns& group : result.groups) {
-        if (1 - group.present[v] > result.options.most_missing || !std::isfinite(group.mean[v])) result.tested[v] = 0;
+        if (1 - group.trusted[v] > result.options.most_missing || !std::isfinite(group.mean[v])) result.tested[v] = 0;
       }
       result.area_A2 += result.graph.area[v];
       if (result.tested[v] != 0) result.tested_area_A2 += result.graph.area[v];
     }
     if (result.tested_area_A2 == 0)
-      throw InputError("no vertex of the template has a counterpart in " +
+      throw InputError("no vertex of the template is trusted in " +
                        std::to_string(std::lround(100 - 100 * result.options.most_missing)) +
-                       " % of each group's frames; the frames differ too much from the template");
+                       " % of each group's frames; the frames differ too much from the template: " +
+                       option("most-missing") + " allows more, or take another " + option("template"));
     for (const ReplicateColumns& replicate : columns) {
       means.emplace_back();
       for (std::size_t v = 0; v < n_vertices(); ++v)
@@ -131,7 +141,11 @@ struct Analysis {
     s.effective = median(effective);
     s.error_ratio = median(ratio);
     std::vector<double> weights(n_vertices());
-    for (std::size_t v = 0; v < n_vertices(); ++v) weights[v] = result.tested[v] != 0 ? result.graph.area[v] : 0;
+    for (std::size_t v = 0; v < n_vertices(); ++v) {
+      weights[v] = result.tested[v] != 0 ? result.graph.area[v] : 0;
+      s.trusted_area_fraction += result.graph.area[v] * static_cast<double>(columns[r].columns[v].n);
+    }
+    s.trusted_area_fraction /= result.area_A2 * n_mapped[r];
     s.drift = measure_drift(columns[r].blocks, weights);
     double potential = 0, rmsd = 0;
     for (std::size_t f = start; f < replicate.n_frames; ++f) {
@@ -192,6 +206,7 @@ struct Analysis {
     values = std::make_unique<EnsembleColumns>(file, starts);
     columns = summarize_columns(*values);
     check_varies();
+    count_mapped(starts);
     for (const std::string& group : plan().groups()) make_group(group);
     choose_tested();
     for (std::size_t r = 0, first = 0; r < starts.size(); first += plan().replicates[r++].n_frames)
@@ -372,13 +387,12 @@ struct Analysis {
           "may not have converged",
           r.name.c_str(), r.group.c_str(), r.effective, kFewEffective));
     }
-    const double left_out = 1 - result.tested_area_A2 / result.area_A2;
-    if (left_out > 0.05) {
-      result.warnings.push_back(
-          formatted("%.1f %% of the template's area is unmatched in more than %.0f %% of a group's frames, and was "
-                    "not tested",
-                    100 * left_out, 100 * result.options.most_missing));
-    }
+    constexpr double kLeastTested = 0.5;  // as a pair needs, by default, to be trustworthy on a part
+    if (result.tested_share() < kLeastTested)
+      result.warnings.push_back(formatted(
+          "only %.0f %% of the template's area is tested: the rest is not trusted in more than %.0f %% of a group's "
+          "frames",
+          100 * result.tested_share(), 100 * result.options.most_missing));
   }
 };
 

@@ -40,7 +40,7 @@ struct FixedPatch {
 /// Options of the statistics; they do not change the file's values.
 struct EnsembleOptions {
   double alpha = 0.05;        ///< of patches, and 1 - confidence of intervals
-  double most_missing = 0.2;  ///< a vertex that is unmatched in a larger share of a group's frames is left out
+  double most_missing = 0.1;  ///< a vertex that a larger share of a group's frames does not trust is left out
   ErrorControl control = ErrorControl::kTfce;  ///< the family-wise p of patches
   Equilibration equilibration;
   SurfaceTestOptions test;
@@ -55,7 +55,8 @@ struct ReplicateSummary {
   double inefficiency = 0, effective = 0;  ///< medians over the tested vertices
   double error_ratio = 0;                  ///< of the standard errors by blocks and by inefficiency: median; near 1
   double mean_potential = 0, mean_rmsd_A = 0;
-  Drift drift;  ///< NaN with fewer than kBlocks frames
+  double trusted_area_fraction = 0;  ///< of the template, mean over the frames
+  Drift drift;                       ///< NaN with fewer than kBlocks frames
 };
 
 /// A group at each vertex.
@@ -65,7 +66,7 @@ struct GroupColumns {
   std::vector<double> mean;       ///< [vertex] of the replicates' means
   std::vector<double> deviation;  ///< [vertex] standard deviation of frames within replicates
   std::vector<double> effective;  ///< [vertex] samples, over all replicates
-  std::vector<double> present;    ///< [vertex] share of frames with a counterpart
+  std::vector<double> trusted;    ///< [vertex] share of the frames that could be mapped that trust it
 };
 
 /// Mean absolute differences over the tested area that need no difference between the groups.
@@ -96,6 +97,7 @@ struct EnsembleResult {
   std::vector<GroupColumns> groups;
   std::vector<char> tested;  ///< [vertex]
   double area_A2 = 0, tested_area_A2 = 0, significant_area_A2 = 0;
+  double tested_share() const { return tested_area_A2 / area_A2; }
   std::size_t n_together = 1;  ///< fields whose surfaces the family-wise p are over
   bool compares = false;       ///< two groups; otherwise what follows is empty
   SurfaceTest test;

@@ -38,12 +38,12 @@ std::string broken(std::string text) {
 }
 
 void print_replicates(std::ostream& out, const EnsembleResult& result) {
-  out << formatted("%-10s %-20s %7s %6s %7s %6s %9s %9s %12s\n", "group", "replicate", "frames", "g", "eff.", "trend",
-                   "mean", "RMSD (A)", "not trusted");
+  out << formatted("%-10s %-20s %7s %6s %7s %6s %9s %9s %8s %8s\n", "group", "replicate", "frames", "g", "eff.",
+                   "trend", "mean", "RMSD (A)", "trusted", "refused");
   for (const ReplicateSummary& r : result.replicates)
-    out << formatted("%-10.10s %-20.20s %7zu %6.1f %7.1f %6s %9.3f %9.2f %12zu\n", r.group.c_str(), r.name.c_str(),
+    out << formatted("%-10.10s %-20.20s %7zu %6.1f %7.1f %6s %9.3f %9.2f %8s %8zu\n", r.group.c_str(), r.name.c_str(),
                      r.n_frames - r.n_cut_off - r.n_failed, r.inefficiency, r.effective, percent(r.drift.share).c_str(),
-                     r.mean_potential, r.mean_rmsd_A, r.n_not_trustworthy);
+                     r.mean_potential, r.mean_rmsd_A, percent(r.trusted_area_fraction).c_str(), r.n_not_trustworthy);
 }
 
 /// What a p is a statement about, where that is not the states.
@@ -211,6 +211,9 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
   out << broken("conclusion   " + result.conclusion) << "\n\n";
   out << formatted("template     %s, %zu vertices, %.1f A2\n", file.plan().template_name.c_str(), file.n_vertices(),
                    result.area_A2);
+  out << formatted("tested       %.1f A2 of it (%.0f %%), which at least %.0f %% of each group's frames trust\n",
+                   result.tested_area_A2, std::floor(100 * result.tested_share()),
+                   100 - 100 * result.options.most_missing);
   out << formatted(file.plan().field ? "field        %.70s\n" : "potential    %.70s\n", file.plan().potential.c_str());
   if (result.n_together > 1)
     out << formatted("family       p is family-wise over the surfaces of %zu fields together\n", result.n_together);

@@ -13,7 +13,7 @@ namespace {
 
 /// The block's sums of two frames. Each is added up by itself first, so that long sums stay exact.
 PairSums sums_of(const StateBlock& block, std::size_t i, std::size_t j, const double* weights) {
-  const double *a = block.values(j), *b = block.values(i), *has_a = block.known(j), *has_b = block.known(i);
+  const double *a = block.values(j), *b = block.values(i), *has_a = block.trusted(j), *has_b = block.trusted(i);
   PairSums s;
   for (std::size_t c = 0; c < block.width(); ++c) {
     const double w = weights[c] * has_a[c] * has_b[c], d = b[c] - a[c];
@@ -81,24 +81,22 @@ Metrics StateSums::metrics(std::size_t source, std::size_t target) const {
 void StateBlock::read(std::size_t begin, std::size_t end) {
   width_ = end - begin;
   values_.resize(frames_.size() * width_);
-  known_.resize(values_.size());
-  std::vector<float> row(width_);
+  trusted_.resize(values_.size());
+  complete_.assign(width_, 1);
+  std::vector<float> all(width_), trusted(width_);
   for (std::size_t i = 0; i < frames_.size(); ++i) {
-    file_.read_values(frames_[i], begin, end, row.data());
+    file_.read_all_values(frames_[i], begin, end, all.data());
+    file_.read_values(frames_[i], begin, end, trusted.data());
     for (std::size_t c = 0; c < width_; ++c) {
-      const bool is_known = std::isfinite(row[c]);
-      values_[i * width_ + c] = is_known ? static_cast<double>(row[c]) : 0;
-      known_[i * width_ + c] = is_known ? 1 : 0;
+      const bool is_known = std::isfinite(all[c]);
+      values_[i * width_ + c] = is_known ? static_cast<double>(all[c]) : 0;
+      trusted_[i * width_ + c] = std::isfinite(trusted[c]) ? 1 : 0;
+      if (!is_known) complete_[c] = 0;
     }
   }
 }
 
-bool StateBlock::is_complete(std::size_t column) const {
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    if (known_[i * width_ + column] == 0) return false;
-  }
-  return true;
-}
+bool StateBlock::is_complete(std::size_t column) const { return complete_[column] != 0; }
 
 StateSums sum_states(const EnsembleFile& file, const std::vector<std::size_t>& frames,
                      const std::vector<double>& weights) {

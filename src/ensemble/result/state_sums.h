@@ -11,7 +11,7 @@ namespace espdiff {
 
 class EnsembleFile;
 
-/// Sums over the area of the vertices that both frames of a pair have, of potentials a and b.
+/// Sums over the area of the vertices where both frames of a pair are trusted, of potentials a and b.
 struct PairSums {
   double area_A2 = 0;
   double absolute = 0, squared = 0;           ///< of b - a
@@ -29,7 +29,7 @@ struct PairSums {
 struct StateSums {
   std::size_t n = 0;
   std::vector<PairSums> pairs;
-  std::vector<double> complete;  ///< products a b over the vertices that every frame has
+  std::vector<double> complete;  ///< products a b over the vertices that every frame has, trusted or not
   double complete_area_A2 = 0;
 
   static std::size_t place(std::size_t i, std::size_t j) { return i * (i + 1) / 2 + j; }
@@ -54,16 +54,17 @@ class StateBlock {
   std::size_t width() const { return width_; }
   /// [column of the block]; 0 where the frame has no value.
   const double* values(std::size_t frame) const { return &values_[frame * width_]; }
-  /// [column of the block] 1 where the frame has a value, otherwise 0.
-  const double* known(std::size_t frame) const { return &known_[frame * width_]; }
-  /// Whether every frame has a value.
+  /// [column of the block] 1 where the frame has a trusted value, otherwise 0.
+  const double* trusted(std::size_t frame) const { return &trusted_[frame * width_]; }
+  /// Whether every frame has a value, trusted or not.
   bool is_complete(std::size_t column) const;
 
  private:
   const EnsembleFile& file_;
   const std::vector<std::size_t>& frames_;
   std::size_t width_ = 0;
-  std::vector<double> values_, known_;
+  std::vector<double> values_, trusted_;
+  std::vector<char> complete_;  // [column of the block]
 };
 
 /// How many columns are read at a time.

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
 #include "base/counter_random.h"
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/not_a_number.h"
 #include "ensemble/file/ensemble_file.h"
 #include "ensemble/result/ensemble_result.h"
@@ -54,6 +56,7 @@ class Cells {
       : file_(file),
         matrix_(matrix),
         parts_(matrix.plan.parts()),
+        required_share_(options_of("require").required_share),
         graph_(make_mesh_graph(file.surface().positions, file.surface().triangles)) {
     for (std::size_t i = 0; i < matrix.n(); ++i) {
       matrix_.through->states.push_back(state_of(file.numbers(i)));
@@ -74,23 +77,35 @@ class Cells {
   /// Sums of a field, empty for the potential, over the whole surface or a part.
   struct Sums {
     std::string field, part;
+    double area_A2 = 0;  ///< of the template
     StateSums of;
   };
 
-  /// The whole surface, then each patch.
-  void add_up(const std::string& field, const EnsembleFile& file) {
-    sums_.push_back({field, "", sum_states(file, frames_, graph_.area)});
-    if (parts_.empty()) return;
+  void add_up(const std::string& field, const std::string& part, const EnsembleFile& file,
+              const std::vector<double>& weights) {
+    const double area = std::accumulate(weights.begin(), weights.end(), 0.0);
+    sums_.push_back({field, part, area, sum_states(file, frames_, weights)});
+  }
+
+  /// The plan's settings of one name.
+  CompareOptions options_of(const std::string& name) const {
     std::vector<std::pair<std::string, std::string>> given;
     for (const auto& setting : matrix_.plan.settings) {
-      if (setting.first == "patch") given.push_back(setting);
+      if (setting.first == name) given.push_back(setting);
     }
+    return make_options(given);
+  }
+
+  /// The whole surface, then each patch.
+  void add_up(const std::string& field, const EnsembleFile& file) {
+    add_up(field, "", file, graph_.area);
+    if (parts_.empty()) return;
     std::size_t k = 0;
-    for (FixedPatch& patch : fixed_patches(make_options(given), residues_of_template(file_.plan()))) {
+    for (FixedPatch& patch : fixed_patches(options_of("patch"), residues_of_template(file_.plan()))) {
       const std::vector<std::uint8_t> inside = vertices_on_template(patch, file_.surface(), file_.plan().residues);
       std::vector<double> weights(graph_.area.size(), 0);
       for (std::size_t v = 0; v < weights.size(); ++v) weights[v] = inside[v] != 0 ? graph_.area[v] : 0;
-      sums_.push_back({field, parts_[k++], sum_states(file, frames_, weights)});
+      add_up(field, parts_[k++], file, weights);
     }
   }
 
@@ -118,17 +133,34 @@ class Cells {
       cell.reasons.clear();
       return cell;
     }
-    for (const Sums& sums : sums_)
-      set_values(cell, sums, sums.of.metrics(row_of_.at(pair.first), row_of_.at(pair.second)));
+    for (const Sums& sums : sums_) {
+      const Metrics metrics = sums.of.metrics(row_of_.at(pair.first), row_of_.at(pair.second));
+      const double share = metrics.area_A2 / sums.area_A2;
+      set_values(cell, sums, metrics, share);
+      if (sums.field.empty()) judge(cell, sums.part, share);
+    }
     return cell;
   }
 
-  void set_values(MatrixCell& cell, const Sums& sums, const Metrics& metrics) const {
+  void set_values(MatrixCell& cell, const Sums& sums, const Metrics& metrics, double share) const {
     for (std::size_t m = 0; m < cell.values.size(); ++m) {
       const Metric& metric = matrix_.metrics()[m];
-      if (matrix_.gives(m) && metric.part == sums.part && metric.field == sums.field)
-        cell.values[m] = metrics.*metric.source.of_area;
+      if (!matrix_.gives(m) || metric.part != sums.part || metric.field != sums.field) continue;
+      cell.values[m] = metric.source.of_area != nullptr ? metrics.*metric.source.of_area : share;
     }
+  }
+
+  /// By the share of the whole, or of a part, that is trusted onto both states.
+  void judge(MatrixCell& cell, const std::string& part, double share) const {
+    if (share >= required_share_) return;
+    if (!part.empty()) {
+      cell.parts_trustworthy[static_cast<std::size_t>(std::find(parts_.begin(), parts_.end(), part) - parts_.begin())] =
+          0;
+      return;
+    }
+    cell.trustworthy = false;
+    cell.reasons.push_back(formatted("%.0f %% of the template is trusted onto both states (limit %.0f %%)",
+                                     std::floor(100 * share), 100 * required_share_));
   }
 
   void note_areas() {
@@ -150,6 +182,7 @@ class Cells {
   const EnsembleFile& file_;
   Matrix& matrix_;
   std::vector<std::string> parts_;
+  double required_share_ = 0;
   MeshGraph graph_;
   std::vector<std::size_t> frames_;            // that have values
   std::map<std::size_t, std::size_t> row_of_;  // by frame: its place in frames_

@@ -17,9 +17,10 @@ std::vector<MatrixPair> exact_sample(std::size_t n_variants, std::size_t n_exact
 /// The sample's cells out of others, source by source. @throws InputError (a pair is missing)
 std::vector<MatrixCell> sampled(const MatrixPlan& plan, std::size_t n_exact, const std::vector<MatrixCell>& cells);
 
-/// The matrix of a complete file that run_template_matrix() made: each pair over the vertices that both states have,
-/// with the weights of the template's surface. The two directions of a pair have the same values. A cell is trustworthy
-/// if the template's mapping onto both states is.
+/// The matrix of a complete file that run_template_matrix() made: each pair over the vertices that are trusted onto
+/// both states, with the weights of the template's surface. The two directions of a pair have the same values. A cell
+/// is trustworthy if the template's mapping onto both states is, and the share of these vertices reaches the required
+/// one.
 /// @param fields complete files of the plan's fields, in its order
 /// @param exact  the sampled() pairs
 /// @throws InputError (states are missing; a patch of the plan has no place on the template)

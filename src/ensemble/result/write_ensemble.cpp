@@ -44,8 +44,8 @@ void write_surface(std::ostream& out, const EnsembleFile& file, const EnsembleRe
     add("deviation_" + sides[g], result.groups[g].deviation);
     add("effective_samples_" + sides[g], result.groups[g].effective);
     kept.push_back(
-        std::make_unique<std::vector<float>>(result.groups[g].present.begin(), result.groups[g].present.end()));
-    vtp.point_arrays.emplace_back("counterparts_" + sides[g], *kept.back());
+        std::make_unique<std::vector<float>>(result.groups[g].trusted.begin(), result.groups[g].trusted.end()));
+    vtp.point_arrays.emplace_back("trusted_" + sides[g], *kept.back());
     vtp.texts.emplace_back(sides[g] + "_group", result.groups[g].name);
   }
   const std::vector<std::int32_t> patch = patch_numbers(result);

@@ -11,6 +11,7 @@
 using namespace espdiff_test;
 using espdiff::GridPtr;
 using espdiff::MeshPtr;
+using espdiff::PotentialReading;
 
 namespace {
 
@@ -36,6 +37,15 @@ std::vector<double> some_weights(std::size_t n, std::uint64_t seed) {
   return weights;
 }
 
+/// A reading of each vector of weights.
+std::vector<PotentialReading> readings_at(Engine& engine, const MeshPtr& mesh,
+                                          const std::vector<std::vector<double>>& weights) {
+  std::vector<PotentialReading> readings;
+  for (const std::vector<double>& of_reading : weights)
+    readings.push_back({engine.download_positions(mesh), of_reading});
+  return readings;
+}
+
 double reading_of(Engine& engine, const GridPtr& map, const MeshPtr& mesh, const std::vector<double>& weights) {
   const std::vector<float> samples = engine.download(engine.sample(map, mesh));
   double sum = 0;
@@ -51,7 +61,7 @@ void check_against_single_charges(Engine& engine, const MapOfCharges& make, cons
   const std::size_t n = engine.n_vertices(mesh);
   const std::vector<std::vector<double>> weights{some_weights(n, 92), some_weights(n, 93)};
   const GridPtr map = make(engine, charges);
-  const auto found = engine.contributions(map, mesh, weights, {}, {});
+  const auto found = engine.contributions(map, readings_at(engine, mesh, weights), {}, {});
   REQUIRE(found.size() == 2);
   for (std::size_t r = 0; r < 2; ++r) {
     REQUIRE(found[r].size() == charges.size());
@@ -156,12 +166,13 @@ TEST_CASE("a probe adds what a charge there would, with the shape kept") {
     const std::size_t n = m.size();
     const auto check = [&](const GridPtr& map, const GridPtr& alone, Vec3d place) {
       const std::vector<espdiff::ProbeCharge> probes{{place, 0, 0.7F}};
-      const std::vector<double> found = engine->contributions(map, mesh, {weights}, probes, {}).front();
+      const std::vector<double> found =
+          engine->contributions(map, readings_at(*engine, mesh, {weights}), probes, {}).front();
       REQUIRE(found.size() == n + 1);
       const double wanted = reading_of(*engine, alone, mesh, weights);
       CHECK(found[n] == doctest::Approx(wanted).epsilon(1e-4));
       CHECK(std::vector<double>(found.begin(), found.end() - 1) ==
-            engine->contributions(map, mesh, {weights}, {}, {}).front());
+            engine->contributions(map, readings_at(*engine, mesh, {weights}), {}, {}).front());
     };
     for (const auto boundary : {espdiff::FarBoundary::kDebyeHueckel, espdiff::FarBoundary::kFocus}) {
       PoissonBoltzmannOptions options;
@@ -176,7 +187,7 @@ TEST_CASE("a probe adds what a charge there would, with the shape kept") {
           engine->isolated_charges({there}, {0.7F}, {}, to_map), here);
     const GridPtr pb = pb_on_device(*engine, m, pb_lattice(m, 1.0, 8), {});
     CHECK(message_of([&] {
-            engine->contributions(pb, mesh, {weights}, {{{500, 0, 0}, 0, 1}}, {});
+            engine->contributions(pb, readings_at(*engine, mesh, {weights}), {{{500, 0, 0}, 0, 1}}, {});
           }) == "a charge is asked about outside the potential's grid of 12 charges; give the grid a wider padding");
   }
 }
@@ -189,14 +200,17 @@ TEST_CASE("contributions have the same bits at 1, 2 and 4 threads, with coeffici
       if (engine->back_end() != "cpu") continue;
       const MeshPtr mesh = comparison_surface(*engine, m);
       const GridPtr map = pb_on_device(*engine, m, pb_lattice(m, 1.0, 8), {});
-      const auto found = engine->contributions(map, mesh, {some_weights(engine->n_vertices(mesh), 95)}, {}, {});
+      const auto readings = readings_at(*engine, mesh, {some_weights(engine->n_vertices(mesh), 95)});
+      const auto found = engine->contributions(map, readings, {}, {});
       if (first.empty()) first = found.front();
       CHECK(std::memcmp(first.data(), found.front().data(), first.size() * sizeof(double)) == 0);
       PoissonBoltzmannOptions keeping;
       keeping.keep_operator = true;
       const GridPtr keeper = pb_on_device(*engine, m, pb_lattice(m, 1.0, 8), keeping);
-      const auto again = engine->contributions(keeper, mesh, {some_weights(engine->n_vertices(mesh), 95)}, {}, {});
-      CHECK(std::memcmp(first.data(), again.front().data(), first.size() * sizeof(double)) == 0);
+      for (const GridPtr& kept : {keeper, engine->without_values(keeper)}) {
+        const auto again = engine->contributions(kept, readings, {}, {});
+        CHECK(std::memcmp(first.data(), again.front().data(), first.size() * sizeof(double)) == 0);
+      }
     }
   }
 }
@@ -205,23 +219,23 @@ TEST_CASE("maps that are no sum over charges have no contributions") {
   const Molecule m = charged_chain();
   for (const auto& engine : fast_back_ends()) {
     const MeshPtr mesh = comparison_surface(*engine, m);
-    const std::vector<std::vector<double>> weights{std::vector<double>(engine->n_vertices(mesh), 1.0)};
+    std::vector<PotentialReading> readings =
+        readings_at(*engine, mesh, {std::vector<double>(engine->n_vertices(mesh), 1.0)});
     PoissonBoltzmannOptions options;
     options.nonlinear = true;
     const GridPtr nonlinear = pb_on_device(*engine, m, pb_lattice(m, 1.0, 8), options);
-    CHECK(message_of([&] { engine->contributions(nonlinear, mesh, weights, {}, {}); }) ==
+    CHECK(message_of([&] { engine->contributions(nonlinear, readings, {}, {}); }) ==
           "the nonlinear Poisson-Boltzmann equation has no causes: its potential is not a sum over charges; take the "
           "linearized equation");
     const GridPtr given = engine->upload_map(engine->download(nonlinear), {});
-    CHECK(message_of([&] { engine->contributions(given, mesh, weights, {}, {}); }) ==
+    CHECK(message_of([&] { engine->contributions(given, readings, {}, {}); }) ==
           "a given potential map does not say which charges it is made of; let the potential be computed");
     const GridPtr map = engine->isolated_charges(m.positions, m.charges, {}, {});
-    CHECK(message_of([&] { engine->contributions(map, mesh, {{1.0}}, {}, {}); }) ==
-          "a reading needs one weight for each vertex");
+    CHECK(message_of([&] { engine->contributions(map, readings_at(*engine, mesh, {{1.0}}), {}, {}); }) ==
+          "a reading needs one weight for each point");
     const GridPtr small = pb_on_device(*engine, m, pb_lattice(m, 1.0, 4), {});
-    std::vector<Vec3f> far = engine->download_positions(mesh);
-    far[0] = far[0] + Vec3f{500, 0, 0};
-    CHECK(message_of([&] { engine->contributions(small, engine->with_positions(mesh, far), weights, {}, {}); }) ==
+    readings[0].points[0] = readings[0].points[0] + Vec3f{500, 0, 0};
+    CHECK(message_of([&] { engine->contributions(small, readings, {}, {}); }) ==
           "a reading has weight outside the potential map");
   }
 }

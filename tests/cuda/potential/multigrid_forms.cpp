@@ -178,6 +178,9 @@ TEST_CASE("a step along the direction changes x and the residual, and returns th
     CHECK(raw(r)[i] == raw(r_before)[i] - 0.25F * raw(q)[i]);
   }
   CHECK(square == doctest::Approx(dot_product(r, r)).epsilon(1e-12));
+  Buffer<float> without_x = r_before;
+  CHECK(subtract_scaled(0.25F, q, without_x) == square);
+  CHECK(to_host(without_x) == to_host(r));
 }
 
 TEST_SUITE_END();

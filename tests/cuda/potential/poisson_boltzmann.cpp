@@ -237,9 +237,7 @@ TEST_CASE("what each of two charges in a sphere adds to the potential at a point
     std::vector<Vec3f> points = engine->download_positions(mesh);
     for (Vec3f& p : points) p = static_cast<Vec3f>(centre + 1.5 * (static_cast<Vec3d>(p) - centre));
     for (const std::size_t v : {std::size_t{0}, points.size() / 2, points.size() - 1}) {
-      std::vector<double> weights(points.size(), 0.0);
-      weights[v] = 1;
-      const auto found = engine->contributions(map, engine->with_positions(mesh, points), {weights}, {}, {}).front();
+      const auto found = engine->contributions(map, {{{points[v]}, {1.0}}}, {}, {}).front();
       const Vec3d d = static_cast<Vec3d>(points[v]) - centre;
       CHECK(found[0] == 0);
       for (std::size_t i = 0; i < 2; ++i) {
