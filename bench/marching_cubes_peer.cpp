@@ -20,7 +20,7 @@ namespace {
 
 template <typename Filter>
 PeerSurface run(const espdiff::Grid& density, float isovalue) {
-  constexpr int kRuns = 7;
+  constexpr int kPeerRuns = 7;
   vtkSMPTools::Initialize(1);
   const espdiff::Lattice& lattice = density.lattice;
   vtkNew<vtkFloatArray> values;
@@ -39,16 +39,16 @@ PeerSurface run(const espdiff::Grid& density, float isovalue) {
   filter->ComputeGradientsOff();
   filter->ComputeScalarsOff();
   std::vector<double> times;
-  for (int i = 0; i < kRuns; ++i) {
+  for (int i = 0; i < kPeerRuns; ++i) {
     filter->Modified();
     const auto start = std::chrono::steady_clock::now();
     filter->Update();
     times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   }
-  std::nth_element(times.begin(), times.begin() + kRuns / 2, times.end());
+  std::nth_element(times.begin(), times.begin() + kPeerRuns / 2, times.end());
   vtkPolyData* surface = filter->GetOutput();
   return {static_cast<std::size_t>(surface->GetNumberOfPolys()), static_cast<std::size_t>(surface->GetNumberOfPoints()),
-          times[kRuns / 2]};
+          times[kPeerRuns / 2]};
 }
 
 }  // namespace

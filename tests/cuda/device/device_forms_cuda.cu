@@ -27,15 +27,21 @@ TEST_CASE("memory is reused: a second run of the same size leaves as much free a
   if (!can_run()) return;
   const auto context = std::make_shared<CudaContext>(0);
   const CudaContext::Use use(context);
-  std::size_t after[3], total = 0;
-  for (std::size_t& free : after) {
+  // What is free is the whole card's: another process that uses it changes it now and then, what we lose changes it
+  // always.
+  constexpr int kRuns = 12;
+  std::size_t before = 0, free = 0, total = 0;
+  int n_same = 0;
+  for (int run = 0; run < kRuns; ++run) {
     {
       const Buffer<float> a(10000000, 1.0F), b = a;
       CHECK(b[9999999] == 1.0F);
     }
     REQUIRE(cudaMemGetInfo(&free, &total) == cudaSuccess);
+    if (run > 0 && free == before) ++n_same;
+    before = free;
   }
-  CHECK(after[1] == after[2]);
+  CHECK(n_same > 0);
 }
 
 TEST_CASE("a buffer may outlive its engine's context and be released by any thread's call or none") {
