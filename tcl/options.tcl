@@ -271,6 +271,16 @@ namespace eval ::espdiff {
     # By command: earlier names that are not settings.
     variable renamed_options {draw {-transparency {-uncertain (fade, transparent or plain)}}}
 
+    # How Tcl says what options of the command line say; empty where they are the same.
+    proc instead_of {name word} {
+        if {$name ni {compare matrix}} { return "" }
+        if {$word in {-potential -source-map -target-map} || [regexp {^-(pb|pme)-} $word]} {
+            return "a state names its own potential, such as {file A.pdb map pb} or {mol 0 map {pb ionic_strength 0.1}}"
+        }
+        if {$word in {-o -output}} { return "the command returns a result, which espdiff export writes to files" }
+        return ""
+    }
+
     # Options cannot be abbreviated: a new option would break such scripts.
     proc refuse_word {name word known} {
         if {![string match -* $word]} { return -code error -errorcode {TCL WRONGARGS} \
@@ -284,6 +294,8 @@ namespace eval ::espdiff {
         if {[dict exists $renamed $old] && "-[dict get $renamed $old]" in $known} {
             fail "espdiff $name: $word is called -[dict get $renamed $old] now"
         }
+        set instead [instead_of $name $word]
+        if {$instead ne ""} { fail "espdiff $name: no option $word in Tcl: $instead" }
         fail "espdiff $name: [unknown_word option $word $known]"
     }
 

@@ -21,35 +21,55 @@ struct InOrder {
   }
 };
 
-void set_bases(std::vector<GridCharge>& charges, const std::array<int, 3>& size, int order) {
-  GridCharge* const atoms = charges.data();
-  for (std::size_t i = 0; i < charges.size(); ++i) {
-    const int y = spline_place(atoms[i].u[1], order, size[1]).base,
-              z = spline_place(atoms[i].u[2], order, size[2]).base;
-    atoms[i].row = static_cast<std::uint32_t>(y + size[1] * z);
-    atoms[i].base_x = spline_place(atoms[i].u[0], order, size[0]).base;
-  }
+ESPDIFF_INLINE void set_base(GridCharge& c, int order, int nx, int ny, int nz) {
+  const int y = spline_place(c.u[1], order, ny).base, z = spline_place(c.u[2], order, nz).base;
+  c.row = static_cast<std::uint32_t>(y + ny * z);
+  c.base_x = spline_place(c.u[0], order, nx).base;
 }
 
-/// Counting sort by row, then the few charges of each row by comparison. Sets row_first; returns the charges in order.
-Buffer<GridCharge> sort_by_rows(const std::vector<GridCharge>& charges, std::vector<std::uint32_t>& row_first) {
-  for (const GridCharge& c : charges) ++row_first[c.row + 1];
-  for (std::size_t r = 1; r < row_first.size(); ++r) row_first[r] += row_first[r - 1];
-  std::vector<std::uint32_t> next(row_first.begin(), row_first.end() - 1);
+/// Sets the charges' bases and row_first; returns the charges in order.
+#if defined(ESPDIFF_BACKEND_CUDA)
+
+Buffer<GridCharge> sort_by_rows(const std::vector<GridCharge>& charges, const std::array<int, 3>& size, int order,
+                                Buffer<std::uint32_t>& row_first) {
+  Buffer<GridCharge> sorted = to_device(charges);
+  GridCharge* const charge = raw(sorted);
+  const int nx = size[0], ny = size[1], nz = size[2];
+  for_each_index(sorted.size(), [=] ESPDIFF_HD(std::size_t i) { set_base(charge[i], order, nx, ny, nz); });
+  thrust::sort(on_device(), sorted.begin(), sorted.end(), InOrder());
+  const std::size_t n = sorted.size(), n_rows = static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz);
+  row_first.resize(n_rows + 1);
+  std::uint32_t* const first = raw(row_first);
+  // Each charge begins the rows after that of the charge before it, up to its own.
+  for_each_index(n + 1, [=] ESPDIFF_HD(std::size_t i) {
+    const std::size_t begin = i == 0 ? 0 : std::size_t{charge[i - 1].row} + 1, end = i == n ? n_rows : charge[i].row;
+    for (std::size_t row = begin; row <= end; ++row) first[row] = static_cast<std::uint32_t>(i);
+  });
+  return sorted;
+}
+
+#else
+
+// Counting sort by row, then the few charges of each row by comparison.
+Buffer<GridCharge> sort_by_rows(std::vector<GridCharge>& charges, const std::array<int, 3>& size, int order,
+                                Buffer<std::uint32_t>& row_first) {
+  row_first.assign(static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]) + 1, 0);
+  std::uint32_t* const rows = raw(row_first);
+  for (GridCharge& c : charges) {
+    set_base(c, order, size[0], size[1], size[2]);
+    ++rows[c.row + 1];
+  }
+  for (std::size_t r = 1; r < row_first.size(); ++r) rows[r] += rows[r - 1];
+  std::vector<std::uint32_t> next(rows, rows + row_first.size() - 1);
   std::vector<GridCharge> sorted(charges.size());
   for (const GridCharge& c : charges) sorted[next[c.row]++] = c;
-#if defined(ESPDIFF_BACKEND_CUDA)
-  Buffer<GridCharge> result = to_device(sorted);
-  thrust::sort(on_device(), result.begin(), result.end(), InOrder());
-  return result;
-#else
   GridCharge* const first = sorted.data();
-  const std::uint32_t* const rows = row_first.data();
   for_each_index(row_first.size() - 1,
                  [=](std::size_t r) { std::sort(first + rows[r], first + rows[r + 1], InOrder()); });
   return to_device(sorted);
-#endif
 }
+
+#endif
 
 template <int Order, typename T>
 void store_weights(const Buffer<GridCharge>& sorted, SortedCharges<T>& charges) {
@@ -264,10 +284,7 @@ SortedCharges<T> sort_charges(std::vector<GridCharge> charges, std::array<int, 3
   SortedCharges<T> result;
   result.order = order;
   result.size = size;
-  set_bases(charges, size, order);
-  std::vector<std::uint32_t> row_first(static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]) + 1);
-  const Buffer<GridCharge> sorted = sort_by_rows(charges, row_first);
-  result.row_first = to_device(row_first);
+  const Buffer<GridCharge> sorted = sort_by_rows(charges, size, order, result.row_first);
   with_spline_order(order, [&](auto constant) { store_weights<decltype(constant)::value>(sorted, result); });
   return result;
 }
