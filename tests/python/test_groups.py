@@ -128,7 +128,9 @@ def test_atomgroups_have_the_numbers_of_files(whole):
     for name in groups:
         assert result.means[name].shape == whole[0].means[name].shape
         np.testing.assert_allclose(result.means[name], whole[0].means[name], rtol=0.01, atol=0.5)
-        assert np.abs(result.means[name] - whole[0].means[name]).mean() < 0.005  # of values of 50 in vacuum
+        tested = np.isfinite(whole[0].means[name])  # where the frames trust the mapping
+        assert tested.mean() > 0.3
+        assert np.abs(result.means[name] - whole[0].means[name])[tested].mean() < 0.005  # of values of 50 in vacuum
 
 
 def test_mda_ensemble_in_processes(whole, request, tmp_path):
