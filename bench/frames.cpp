@@ -125,8 +125,7 @@ void write(const std::string& path, const std::string& text) {
 }
 
 int run(const Arguments& a) {
-  const auto engine = espdiff::select_engine(
-      a.device == "cuda" ? espdiff::DeviceChoice::kCuda : espdiff::DeviceChoice::kCpu, a.threads);
+  const auto engine = espdiff::select_engine(espdiff::parse_device(a.device), a.threads);
   const espdiff::Molecule psf = read_psf(input("adk.psf"));
   std::vector<espdiff::Molecule> frames;
   for (std::size_t f = 0; f < 98; ++f) frames.push_back(read_frame(psf, input("adk_dims.dcd"), f));
@@ -168,7 +167,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(std::vector<std::size_t>{1, 8}));
   app.add_option("--domains", a.domains, "Rigid domains, as espdiff compare has them")->capture_default_str();
   app.add_option("--threads", a.threads, "CPU threads; 0 uses all")->capture_default_str();
-  app.add_option("--device", a.device, "cpu, or cuda")->capture_default_str()->check(CLI::IsMember({"cpu", "cuda"}));
+  app.add_option("--device", a.device, "cpu, cuda, or cuda:N")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     return run(a);

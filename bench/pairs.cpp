@@ -43,7 +43,7 @@ void define_options(CLI::App& app, Settings& s) {
         ->group(setting.group);
   }
   app.add_option("--threads", s.threads, "CPU threads; 0 uses all")->capture_default_str();
-  app.add_option("--device", s.device, "cpu, or cuda")->capture_default_str()->check(CLI::IsMember({"cpu", "cuda"}));
+  app.add_option("--device", s.device, "cpu, cuda, or cuda:N")->capture_default_str();
   app.add_option("--repeats", s.repeats, "Times are medians of this many runs")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -82,8 +82,7 @@ void print_group(const std::string& group, const std::vector<PairRow>& rows) {
 
 int run(const Settings& settings) {
   const espdiff::CompareOptions options = espdiff::make_options(settings.given);
-  const auto engine = espdiff::select_engine(
-      settings.device == "cuda" ? espdiff::DeviceChoice::kCuda : espdiff::DeviceChoice::kCpu, settings.threads);
+  const auto engine = espdiff::select_engine(espdiff::parse_device(settings.device), settings.threads);
   std::ofstream csv;
   if (!settings.csv.empty()) {
     csv.open(settings.csv);

@@ -59,7 +59,7 @@ void pme(StageTimer& timer, espdiff::Engine& engine, std::size_t n_atoms, double
   timer.counters["atoms"] = static_cast<double>(n_atoms);
 }
 
-/// A cube of n^3 points that leaves 12 A around T4 lysozyme, by the default options.
+/// A cube of n^3 points that leaves 12 A around a molecule, by the default options.
 void poisson_boltzmann(StageTimer& timer, espdiff::Engine& engine, const std::string& file, int n) {
   constexpr double kPadding_A = 12;
   const espdiff::Molecule m = espdiff::read_structure(file);

@@ -198,15 +198,20 @@ double CudaContext::elapsed_ms(const std::function<void()>& calls) {
   return static_cast<double>(ms);
 }
 
+double CudaContext::reserved_bytes() const {
+  std::uint64_t reserved = 0;
+  if (pool_ != nullptr)
+    check_cuda(cudaMemPoolGetAttribute(pool_, cudaMemPoolAttrReservedMemCurrent, &reserved), "asking for its memory");
+  return static_cast<double>(reserved);
+}
+
 double CudaContext::available_bytes() const {
   std::size_t free = 0, total = 0;
   check_cuda(cudaMemGetInfo(&free, &total), "asking for its memory");
-  std::uint64_t reserved = 0, used = 0;
-  if (pool_ != nullptr) {
-    check_cuda(cudaMemPoolGetAttribute(pool_, cudaMemPoolAttrReservedMemCurrent, &reserved), "asking for its memory");
+  std::uint64_t used = 0;
+  if (pool_ != nullptr)
     check_cuda(cudaMemPoolGetAttribute(pool_, cudaMemPoolAttrUsedMemCurrent, &used), "asking for its memory");
-  }
-  return static_cast<double>(free) + static_cast<double>(reserved - used);
+  return static_cast<double>(free) + reserved_bytes() - static_cast<double>(used);
 }
 
 MemoryBlock::MemoryBlock(std::size_t n_bytes) {

@@ -70,6 +70,8 @@ class CudaContext {
   /// GPU time in milliseconds of the work that `calls` enqueues.
   double elapsed_ms(const std::function<void()>& calls);
 
+  /// Bytes of the device that the pool holds, in use or not; 0 without a pool.
+  double reserved_bytes() const;
   /// Bytes that can still be allocated.
   double available_bytes() const;
 

@@ -66,19 +66,12 @@ void sort_by_key(Buffer<std::uint32_t>& keys, Buffer<std::uint32_t>& values, int
 Rows sort_into_rows(Buffer<std::uint32_t> bucket, std::size_t n_buckets) {
   const std::size_t n = bucket.size();
   Rows rows;
-  rows.first.resize(n_buckets + 1);
   rows.item.resize(n);
   std::uint32_t* const item = raw(rows.item);
   for_each_index(n, [=] ESPDIFF_HD(std::size_t i) { item[i] = static_cast<std::uint32_t>(i); });
   sort_by_key(bucket, rows.item, bits_below(n_buckets + 1));
   const std::uint32_t* const sorted = raw(bucket);
-  std::uint32_t* const first = raw(rows.first);
-  // Each place begins the rows after that of the place before it, up to its own.
-  for_each_index(n + 1, [=] ESPDIFF_HD(std::size_t place) {
-    const std::size_t begin = place == 0 ? 0 : std::size_t{sorted[place - 1]} + 1,
-                      end = place == n ? n_buckets : sorted[place];
-    for (std::size_t row = begin; row <= end; ++row) first[row] = static_cast<std::uint32_t>(place);
-  });
+  rows.first = first_of_rows(n, n_buckets, [=] ESPDIFF_HD(std::size_t place) { return std::size_t{sorted[place]}; });
   return rows;
 }
 

@@ -24,4 +24,18 @@ struct Rows {
 /// @param bucket  [item] below n_buckets, or n_buckets itself for items of no row, which come after all rows
 Rows sort_into_rows(Buffer<std::uint32_t> bucket, std::size_t n_buckets);
 
+/// [row + 1] the first of some items that are sorted by row. Waits for nothing.
+/// @param row_of (item) below n_rows, or n_rows for those of no row
+template <typename RowOf>
+Buffer<std::uint32_t> first_of_rows(std::size_t n_items, std::size_t n_rows, RowOf row_of) {
+  Buffer<std::uint32_t> first_of(n_rows + 1);
+  std::uint32_t* const first = raw(first_of);
+  // Each item begins the rows after that of the item before it, up to its own.
+  for_each_index(n_items + 1, [=] ESPDIFF_HD(std::size_t item) {
+    const std::size_t begin = item == 0 ? 0 : row_of(item - 1) + 1, end = item == n_items ? n_rows : row_of(item);
+    for (std::size_t row = begin; row <= end; ++row) first[row] = static_cast<std::uint32_t>(item);
+  });
+  return first_of;
+}
+
 }  // namespace espdiff::ESPDIFF_BACKEND

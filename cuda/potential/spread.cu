@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "cuda/device/sort.h"
+
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
@@ -37,14 +39,8 @@ Buffer<GridCharge> sort_by_rows(const std::vector<GridCharge>& charges, const st
   const int nx = size[0], ny = size[1], nz = size[2];
   for_each_index(sorted.size(), [=] ESPDIFF_HD(std::size_t i) { set_base(charge[i], order, nx, ny, nz); });
   thrust::sort(on_device(), sorted.begin(), sorted.end(), InOrder());
-  const std::size_t n = sorted.size(), n_rows = static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz);
-  row_first.resize(n_rows + 1);
-  std::uint32_t* const first = raw(row_first);
-  // Each charge begins the rows after that of the charge before it, up to its own.
-  for_each_index(n + 1, [=] ESPDIFF_HD(std::size_t i) {
-    const std::size_t begin = i == 0 ? 0 : std::size_t{charge[i - 1].row} + 1, end = i == n ? n_rows : charge[i].row;
-    for (std::size_t row = begin; row <= end; ++row) first[row] = static_cast<std::uint32_t>(i);
-  });
+  row_first = first_of_rows(sorted.size(), static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz),
+                            [=] ESPDIFF_HD(std::size_t i) { return std::size_t{charge[i].row}; });
   return sorted;
 }
 

@@ -270,7 +270,7 @@ class Engine {
                                                          const std::vector<ProbeCharge>& probes,
                                                          const Progress& progress) = 0;
   /// The charges and the equation of a computed map: enough for contributions(), where the potential itself is not
-  /// needed any more.
+  /// needed any more. Of a map that was not computed nothing is left, which contributions() refuses.
   virtual GridPtr without_values(const GridPtr& map) = 0;
 
   /// Compares potentials at corresponding vertices.

@@ -2,6 +2,7 @@
 #include "ensemble/result/ensemble_result.h"
 
 #include <doctest/doctest.h>
+#include <hdf5.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +42,40 @@ std::pair<double, double> share_of_planted(const EnsembleFile& file, Holds holds
 double three_deviations(double share, double n) { return 3 * std::sqrt(share * (1 - share) / n); }
 
 }  // namespace
+
+TEST_CASE("of a file of an earlier version all counts as trusted, and a warning says so") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("old.h5");
+  const EnsemblePlan plan = planted_plan(4, 4, 20);
+  EnsembleFile::create(path, plan, planted_template(2));
+  CHECK(EnsembleFile(path, false).has_trust());
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  REQUIRE(file >= 0);
+  CHECK(H5Ldelete(file, "/VTKHDF/PointData/trusted", H5P_DEFAULT) >= 0);
+  std::uint64_t head[2] = {};  // the second is of the structure, and is not in the oldest files
+  const hid_t checksums = H5Dopen2(file, "/espdiff/head_checksum", H5P_DEFAULT);
+  CHECK(H5Dread(checksums, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, head) >= 0);
+  H5Dclose(checksums);
+  CHECK(H5Ldelete(file, "/espdiff/head_checksum", H5P_DEFAULT) >= 0);
+  const hsize_t one = 1;
+  const hid_t space = H5Screate_simple(1, &one, nullptr);
+  const hid_t oldest =
+      H5Dcreate2(file, "/espdiff/head_checksum", H5T_STD_U64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  CHECK(H5Dwrite(oldest, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, head) >= 0);
+  H5Dclose(oldest);
+  H5Sclose(space);
+  H5Fclose(file);
+  EnsembleFile old(path, true);
+  CHECK_FALSE(old.has_trust());
+  fill_planted(old, plan, -1, 5);
+  const EnsembleResult result = analyse_ensemble(old, {});
+  CHECK(result.tested_share() == 1);
+  REQUIRE(result.warnings.size() >= 1);
+  CHECK(std::count(
+            result.warnings.begin(), result.warnings.end(),
+            "an earlier version made the file, which does not say where its frames trust the mapping: all that has "
+            "a counterpart counts as trusted") == 1);
+}
 
 TEST_CASE("the planted patch is found where it is, with its size, its residue and its sign") {
   const ScratchFolder folder;

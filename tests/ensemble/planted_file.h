@@ -33,12 +33,10 @@ inline espdiff::TemplateSurface planted_template(int levels) {
   return surface;
 }
 
-/// Makes a file of correlated noise; `effect` is added to the mutants' frames at vertices of residue 0 with y > 8 A.
-inline void plant_file(const std::string& path, const espdiff::EnsemblePlan& plan, double effect, std::uint64_t seed,
-                       int levels = 2) {
-  const espdiff::TemplateSurface surface = planted_template(levels);
-  espdiff::EnsembleFile::create(path, plan, surface);
-  espdiff::EnsembleFile file(path, true);
+/// Fills a file with correlated noise; `effect` is added to the mutants' frames at vertices of residue 0 with y > 8 A.
+inline void fill_planted(espdiff::EnsembleFile& file, const espdiff::EnsemblePlan& plan, double effect,
+                         std::uint64_t seed) {
+  const espdiff::TemplateSurface& surface = file.surface();
   const std::size_t n = surface.positions.size();
   std::size_t frame = 0;
   for (std::size_t r = 0; r < plan.replicates.size(); ++r) {
@@ -57,6 +55,14 @@ inline void plant_file(const std::string& path, const espdiff::EnsemblePlan& pla
       file.write(frame, row, {1, 0, 0, 0, 1, static_cast<double>(row[0]), true, ""});
     }
   }
+}
+
+/// Makes such a file.
+inline void plant_file(const std::string& path, const espdiff::EnsemblePlan& plan, double effect, std::uint64_t seed,
+                       int levels = 2) {
+  espdiff::EnsembleFile::create(path, plan, planted_template(levels));
+  espdiff::EnsembleFile file(path, true);
+  fill_planted(file, plan, effect, seed);
 }
 
 }  // namespace espdiff_test

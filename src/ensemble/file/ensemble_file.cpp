@@ -238,6 +238,7 @@ const EnsemblePlan& EnsembleFile::plan() const { return contents_->plan; }
 const TemplateSurface& EnsembleFile::surface() const { return contents_->surface; }
 std::size_t EnsembleFile::n_vertices() const { return contents_->layout.n_vertices; }
 bool EnsembleFile::has(std::size_t frame) const { return contents_->done.at(contents_->chosen.at(frame)) != 0; }
+bool EnsembleFile::has_trust() const { return !contents_->layout.trusted.empty(); }
 std::size_t EnsembleFile::n_damaged() const { return contents_->n_damaged; }
 std::size_t EnsembleFile::n_done() const {
   const auto& chosen = contents_->chosen;

@@ -51,6 +51,8 @@ class EnsembleFile {
   /// Whether the frame is there, and whole.
   bool has(std::size_t frame) const;
   std::size_t n_done() const;
+  /// Whether it says where the mapping onto its frames is trusted; files of earlier versions do not.
+  bool has_trust() const;
   /// Frames that were begun or damaged: they have a checksum, which is wrong.
   std::size_t n_damaged() const;
   /// @param values [vertex]  @param trusted [vertex] nonzero where the mapping is trusted; empty: everywhere

@@ -380,6 +380,10 @@ struct Analysis {
   void warn() {
     const std::string design = design_warning(plan());
     if (!design.empty()) result.warnings.push_back(design);
+    if (!file.has_trust())
+      result.warnings.push_back(
+          "an earlier version made the file, which does not say where its frames trust the mapping: all that has a "
+          "counterpart counts as trusted");
     for (const ReplicateSummary& r : result.replicates) {
       if (r.effective >= kFewEffective) continue;
       result.warnings.push_back(formatted(
