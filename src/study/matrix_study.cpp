@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "engine/engine.h"
 #include "prepare/input_files.h"
 #include "prepare/surface_radii.h"
 #ifdef ESPDIFF_HAVE_HDF5
@@ -51,10 +52,11 @@ std::string set_radii(std::vector<Variant>& variants, RadiiChoice choice, bool t
   return {};
 }
 
-std::vector<Variant> read_variants(const MatrixStudy& study, const Progress& progress, MatrixRun& run) {
+std::vector<Variant> read_variants(const MatrixStudy& study, int n_threads, const Progress& progress, MatrixRun& run) {
   const std::size_t n = study.variants.size();
   const std::vector<StatePtr> given = states_of(study);
-  StateReader reader({study.options, study.potential, study.each_by_itself, study.refuses_shapes}, given, progress);
+  StateReader reader({study.options, study.potential, study.each_by_itself, study.refuses_shapes, n_threads}, given,
+                     progress);
   std::vector<ComparedState> states;
   std::vector<ComparedState*> all;
   states.reserve(n);
@@ -97,7 +99,7 @@ std::vector<Variant> read_variants(const MatrixStudy& study, const Progress& pro
 
 MatrixReport run_matrix(const MatrixStudy& study, Engine& engine, const Progress& progress) {
   MatrixRun run = checked_run(study);
-  const std::vector<Variant> variants = read_variants(study, progress, run);
+  const std::vector<Variant> variants = read_variants(study, engine.n_threads(), progress, run);
   if (study.template_text.empty()) return run_matrix(engine, variants, study.options, run, progress);
 #ifdef ESPDIFF_HAVE_HDF5
   const TemplateRequest request{study.template_text, study.n_exact, ensemble_options(study.settings), study.structure};

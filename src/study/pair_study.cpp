@@ -36,7 +36,7 @@ PairAnswer run_pair(const PairStudy& study, Engine& engine, const Progress& prog
   const InputOptions& input = study.options.input;
   const StatePtr given_source = PairInterface::without_others(study.options, study.source),
                  given_target = PairInterface::without_others(study.options, study.target);
-  StateReader reader({study.options, study.potential, study.each_by_itself, study.refuses_shapes},
+  StateReader reader({study.options, study.potential, study.each_by_itself, study.refuses_shapes, engine.n_threads()},
                      {given_source, given_target}, progress);
   ComparedState source = reader.read(StateRole::kSource, nullptr, study.target.get());
   Molecule& source_molecule = source.loaded.molecule;

@@ -87,6 +87,8 @@ StateReader::StateReader(const StatesRequest& request, std::vector<StatePtr> giv
   has_maps_ = std::any_of(given_.begin(), given_.end(), [](const StatePtr& state) { return state->has_map(); });
 }
 
+StateReader::~StateReader() = default;
+
 bool StateReader::wants_charges(const State& state) const {
   return state.potential || (!request_.each_by_itself && !has_maps_ && request_.potential.potential != "none");
 }
@@ -124,7 +126,46 @@ LoadedState StateReader::load(const State& state, const StateRequest& request) {
   }
 }
 
+void StateReader::start_ahead(StateRole role) {
+  ahead_ = std::move(next_ahead_);
+  const bool has_next = role != StateRole::kTarget && next_ + 1 < given_.size();
+  const InputOptions& input = request_.options.input;
+  // With the source's protonation it needs the source; trajectories share the reader of their frames.
+  if (request_.n_threads < 2 || !has_next || input.charges.same_protonation || !input.charges_from.empty()) return;
+  const StatePtr state = given_[next_ + 1], before = given_[next_];
+  // The same molecule takes its charges from the cache.
+  if (state->path == before->path && state->structure.model == before->structure.model) return;
+  if (state->path.empty() || state->file != nullptr || !wants_charges(*state) || find_pdb2pqr().empty()) return;
+  const StateRequest request{state->structure, role == StateRole::kSource ? StateRole::kTarget : role};
+  next_ahead_ = std::make_unique<StateAhead>([state, request, &input](const Progress& progress) {
+    auto file = std::make_shared<const StructureFile>(state->path);
+    file->require_unchanged(state->input.sha256);
+    LoadedState loaded = load_state(*file, request, input, progress);
+    return StateAhead::Read{std::move(file), std::move(loaded)};
+  });
+}
+
+std::optional<LoadedState> StateReader::take_ahead(const Molecule* source) {
+  const std::unique_ptr<StateAhead> ahead = std::move(ahead_);
+  if (ahead == nullptr) return std::nullopt;
+  std::optional<StateAhead::Read> read = ahead->take(progress_);
+  if (!read) return std::nullopt;
+  const std::string& asked = request_.options.input.charges.force_field;
+  if (read->state.preparation) {
+    // Nucleotides of the source change the force field, those of this state alone are refused.
+    const Molecule& molecule = read->state.molecule;
+    if (force_field_for(molecule, source, asked) != force_field_for(molecule, nullptr, asked)) return std::nullopt;
+    progress_.report("prepare " + molecule.name, 1.0);
+  }
+  file_ = std::move(read->file);
+  path_ = given_.at(next_)->path;
+  return std::move(read->state);
+}
+
 ComparedState StateReader::read(StateRole role, const Molecule* source, const State* partner) {
+  start_ahead(role);
+  if (std::optional<LoadedState> loaded = take_ahead(source))
+    return compared(*given_[next_++], role, *std::move(loaded));
   const State& given = *given_.at(next_++);
   StateRequest request{given.structure, role};
   request.wants_charges = wants_charges(given);
@@ -141,6 +182,8 @@ ComparedState StateReader::read(StateRole role, const Molecule* source, const St
 }
 
 ComparedState StateReader::read_frame(const LoadedState& source) {
+  ahead_ = std::move(next_ahead_);
+  ahead_.reset();
   const State& given = *given_.at(next_);
   if (given.has_map() || !has_charges(source.molecule)) return read(StateRole::kTarget, &source.molecule);
   ++next_;

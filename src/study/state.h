@@ -17,6 +17,7 @@
 #include "potential/potential_plan.h"
 #include "prepare/load_state.h"
 #include "report/sections/provenance.h"
+#include "study/state_ahead.h"
 
 namespace espdiff {
 
@@ -86,12 +87,14 @@ struct StatesRequest {
   PotentialRequest potential;
   bool each_by_itself = false;  ///< states have the maps and potentials that they were given, and no other
   bool refuses_shapes = false;  ///< an error where `auto` finds no charges
+  int n_threads = 1;            ///< with two or more, the next state is read and charged beside each one
 };
 
 /// Reads the states of one study, in their order, then computes or reads their maps. Keeps references.
 class StateReader {
  public:
   StateReader(const StatesRequest& request, std::vector<StatePtr> given, const Progress& progress);
+  ~StateReader();
 
   /// Reads, selects and charges the next state. A structure file that follows itself is read once.
   /// @param source the source's molecule, for a target with its protonation states
@@ -110,6 +113,10 @@ class StateReader {
  private:
   bool wants_charges(const State& state) const;
   const StructureFile& open(const State& state);
+  /// Starts to read the state after the next one, where it is a file that needs no other state.
+  void start_ahead(StateRole role);
+  /// The next state, where it was read ahead and the source changes nothing about it.
+  std::optional<LoadedState> take_ahead(const Molecule* source);
   LoadedState load(const State& state, const StateRequest& request);
   ComparedState compared(const State& given, StateRole role, LoadedState loaded);
 
@@ -120,6 +127,7 @@ class StateReader {
   std::size_t next_ = 0;
   std::shared_ptr<const StructureFile> file_;
   std::string path_;
+  std::unique_ptr<StateAhead> ahead_, next_ahead_;  ///< of the next state, of the one after it
 };
 
 /// Reads the map's file, if it is one that was not read yet. @throws as read_grid_file()

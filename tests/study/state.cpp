@@ -3,16 +3,26 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <thread>
+
 #include "base/error.h"
+#include "base/progress.h"
 #include "matrix/variants.h"
 #include "options/options.h"
 #include "support/test_data.h"
 #include "support/text.h"
 
 using namespace espdiff_test;  // NOLINT: a test
+using espdiff::Cancelled;
 using espdiff::ComparedState;
 using espdiff::CompareOptions;
 using espdiff::PotentialRequest;
+using espdiff::Progress;
 using espdiff::State;
 using espdiff::StatePtr;
 using espdiff::StateReader;
@@ -35,6 +45,31 @@ StatePtr file_state(const std::string& path, const std::string& sha256 = {}) {
   state.input.sha256 = sha256;
   return std::make_shared<const State>(std::move(state));
 }
+
+/// A PDB file of one residue without charges.
+StatePtr uncharged(const ScratchFolder& folder, const std::string& name) {
+  return file_state(folder.write(name,
+                                 "ATOM      1  N   ALA A   1       0.000   0.000   0.000  1.00  0.00           N\n"
+                                 "ATOM      2  CA  ALA A   1       1.460   0.000   0.000  1.00  0.00           C\n"
+                                 "ATOM      3  C   ALA A   1       2.000   1.420   0.000  1.00  0.00           C\n"));
+}
+
+/// Takes the place of PDB2PQR until the end of the scope.
+class StandIn {
+ public:
+  StandIn(const ScratchFolder& folder, const std::string& script) {
+    const std::string path = folder.write("stand-in", "#!/bin/sh\n" + script + "\n");
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    setenv("ESPDIFF_PDB2PQR", path.c_str(), 1);
+    setenv("XDG_CACHE_HOME", folder.file("cache").c_str(), 1);
+  }
+  ~StandIn() {
+    unsetenv("ESPDIFF_PDB2PQR");
+    unsetenv("XDG_CACHE_HOME");
+  }
+  StandIn(const StandIn&) = delete;
+  StandIn& operator=(const StandIn&) = delete;
+};
 
 ComparedState read_one(const StatePtr& state, const CompareOptions& options, const PotentialRequest& potential = {}) {
   return StateReader({options, potential}, {state}, {}).read(StateRole::kOnly);
@@ -102,4 +137,57 @@ TEST_CASE("a molecule whose atoms were chosen in VMD takes no selection of files
   options.input.both.select = "1";
   CHECK(message_of([&] { read_one(given, options); }) ==
         "select is of structures in files, and the molecule is a molecule of VMD; choose its atoms by `sel`");
+}
+
+TEST_CASE(
+    "both states of a pair are prepared at once where there are two threads, and the source's error comes first") {
+  const ScratchFolder folder;
+  const StatePtr a = uncharged(folder, "a.pdb"), b = uncharged(folder, "b.pdb");
+  // Each run waits for another one, and says whether it came.
+  const std::string here = folder.file("");
+  const StandIn program(folder, "touch " + here + "run.$$; for i in 1 2 3 4 5 6 7 8 9 10; do set -- " + here +
+                                    "run.*; [ $# -ge 2 ] && touch " + here + "both; sleep 0.1; done; exit 1");
+  const CompareOptions options;
+  const auto error_of = [&](int n_threads) {
+    return message_of([&] {
+      StateReader reader({options, {}, false, false, n_threads}, {a, b}, {});
+      const ComparedState source = reader.read(StateRole::kSource);
+      reader.read(StateRole::kTarget, &source.loaded.molecule);
+    });
+  };
+  const std::string one_by_one = error_of(1);
+  CHECK_FALSE(std::filesystem::exists(folder.file("both")));
+  CHECK(one_by_one.find("a.pdb: has no charges, and PDB2PQR cannot prepare it") != std::string::npos);
+  for (const auto& entry : std::filesystem::directory_iterator(here)) {
+    if (entry.path().filename().string().rfind("run.", 0) == 0) std::filesystem::remove(entry.path());
+  }
+  CHECK(error_of(2) == one_by_one);
+  CHECK(std::filesystem::exists(folder.file("both")));
+}
+
+TEST_CASE("a cancelled preparation ends both programs within a second") {
+  const ScratchFolder folder;
+  const StatePtr a = uncharged(folder, "a.pdb"), b = uncharged(folder, "b.pdb");
+  const std::string list = folder.file("processes");
+  const StandIn program(folder, "echo $$ >> " + list + "; exec sleep 60");
+  const CompareOptions options;
+  Progress progress;
+  const auto processes = [&] {
+    std::istringstream text(std::filesystem::exists(list) ? read_file(list) : std::string());
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    return lines;
+  };
+  std::chrono::steady_clock::time_point cancelled;
+  std::thread cancel([&] {
+    for (int i = 0; i < 1000 && processes().size() < 2; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    cancelled = std::chrono::steady_clock::now();
+    progress.request_cancel();
+  });
+  CHECK_THROWS_AS(StateReader({options, {}, false, false, 2}, {a, b}, progress).read(StateRole::kSource), Cancelled);
+  const auto ended = std::chrono::steady_clock::now();
+  cancel.join();
+  CHECK(std::chrono::duration<double>(ended - cancelled).count() < 1);
+  CHECK(processes().size() == 2);
+  for (const std::string& process : processes()) CHECK_FALSE(std::filesystem::exists("/proc/" + process));
 }

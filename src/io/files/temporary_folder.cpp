@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 
 #include "base/error.h"
 #include "system/permissions.h"
@@ -34,6 +35,9 @@ void remove_left_behind(const std::string& folder) {
 }  // namespace
 
 TemporaryFolder::TemporaryFolder() {
+  // A folder is locked a moment after it was made: another thread must not take it for a dead process' before.
+  static std::mutex one_at_a_time;
+  const std::lock_guard<std::mutex> guard(one_at_a_time);
   // VMD may name a folder in TMPDIR that is not there.
   const char* const named = std::getenv("TMPDIR");
   std::error_code ignored;
