@@ -1,6 +1,7 @@
 // choose_motions.cpp: compares two mappings of one pair by their limits, then by the area on its own residue.
 #include "compare/choose_motions.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "align/geometry/rigid_domains.h"
@@ -41,6 +42,20 @@ MappedStep keep(MappedStep kept, const MappedStep& other, const Molecule& source
 
 bool slips(const CompareResult& result, const Molecule& source) { return !slip_reasons(result, source).empty(); }
 
+bool will_slip(const Molecule& source, const Molecule& target, const AtomPairing& pairing, const CommonFrame& frame) {
+  // Atoms that fade need 24 steps anyway: where the farthest one needs no more than about 45, long steps save little.
+  constexpr double kFar_A = 10, kShare = 0.01, kFarthest_A = 16;
+  std::size_t n_far = 0;
+  double farthest = 0;
+  for (const auto& [s, t] : pairing.pairs) {
+    const Vec3d way = frame.from_target.apply(target.positions[t]) - frame.from_source.apply(source.positions[s]);
+    const double length = norm(way);
+    n_far += length > kFar_A ? 1 : 0;
+    farthest = std::max(farthest, length);
+  }
+  return farthest > kFarthest_A && static_cast<double>(n_far) > kShare * static_cast<double>(pairing.pairs.size());
+}
+
 double own_residue_share(const CompareResult& result) {
   const Certificate& c = result.certificate;
   const double of_source = result.source_surface.area_A2, of_target = result.target_surface.area_A2;
@@ -54,11 +69,16 @@ MappedStep without_second(MappedStep straight, const Message& error) {
   return straight;
 }
 
+bool keeps_local(const MappedStep& straight, const MappedStep& local, const Molecule& source) {
+  return mapping_reasons(local.result, source).empty() ||
+         own_residue_share(local.result) > own_residue_share(straight.result);
+}
+
 MappedStep better_of(MappedStep straight, MappedStep local, const Molecule& source) {
   if (mapping_reasons(local.result, source).empty())
     return keep(std::move(local), straight, source,
                 "the superposition of the whole slips, and local motions are within the limits");
-  if (own_residue_share(local.result) > own_residue_share(straight.result))
+  if (keeps_local(straight, local, source))
     return keep(std::move(local), straight, source,
                 "neither is within the limits; with local motions more of the surfaces is on its own residue");
   return keep(std::move(straight), local, source,

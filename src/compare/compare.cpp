@@ -121,11 +121,13 @@ struct Series::Steps {
 
   /// @param paths of paths_to()
   /// @param from the step to continue from; null for the source
-  /// @param stage name for progress reports
+  /// @param stage name for progress reports  @param step_factor of the largest step
   MorphResult morph(const Molecule& target, const Surface& target_surface, const CommonFrame& frame,
                     const std::vector<MovingAtom>& paths, const LastStep* from, CompareResult& result,
-                    const std::string& stage, const Progress& progress, StageClock& clock) const {
-    const MorphOptions morph = morph_options(options);
+                    const std::string& stage, const Progress& progress, StageClock& clock,
+                    double step_factor = 1) const {
+    MorphOptions morph = morph_options(options);
+    morph.max_step_A *= step_factor;
     MorphResult morphed;
     if (from != nullptr) {
       const auto step_paths =
@@ -364,17 +366,18 @@ struct Series::Steps {
   /// Maps the source onto the target once, and certifies the mapping.
   /// @param result of the stages before
   /// @param before the step to continue from; null for the source
+  /// @param step_factor of the morph's largest step
   MappedStep map(const CompareInput& target, const Surface& target_surface, const CommonFrame& frame,
                  CompareResult result, const LastStep* before, const std::string& stage, const Progress& progress,
-                 StageClock& clock) {
+                 StageClock& clock, double step_factor = 1) {
     MappedStep step{frame, {}, {}, {}, {}, {}, std::move(result)};
     // deform needs no pairs; the morph says what it misses.
     if (options.method == Method::kMorph || !step.result.pairing.pairs.empty())
       step.paths = paths_to(*target.molecule, frame, step.result.pairing, progress);
     clock.lap("atom paths");
     if (options.method == Method::kMorph) {
-      step.morphed =
-          morph(*target.molecule, target_surface, frame, step.paths, before, step.result, stage, progress, clock);
+      step.morphed = morph(*target.molecule, target_surface, frame, step.paths, before, step.result, stage, progress,
+                           clock, step_factor);
       step.mapping = mapping_of(engine, step.morphed);
     } else {
       const MeshPtr begin =
@@ -396,13 +399,19 @@ struct Series::Steps {
   }
 
   /// Maps once, or twice where the first mapping slips. A step that continues from the one before is mapped once: its
-  /// way is composed of small steps.
+  /// way is composed of small steps. Where atoms go far, so that it slips most likely, the first mapping takes long
+  /// steps, and is made again in usual ones if it is to be kept.
   /// @param again from may_map_again()
   MappedStep map_as_needed(const CompareInput& target, const Surface& target_surface, const CommonFrame& frame,
                            const CompareResult& result, const LastStep* before, bool again, const Progress& progress,
                            StageClock& clock) {
-    MappedStep straight = map(target, target_surface, frame, result, before, "morph", progress, clock);
-    if (!again || before != nullptr || !slips(straight.result, *source.molecule)) return straight;
+    const auto map_straight = [&](double step_factor) {
+      return map(target, target_surface, frame, result, before, "morph", progress, clock, step_factor);
+    };
+    again = again && before == nullptr;
+    const bool is_trial = again && will_slip(*source.molecule, *target.molecule, result.pairing, frame);
+    MappedStep straight = map_straight(is_trial ? kTrialSteps : 1);
+    if (!again || !slips(straight.result, *source.molecule)) return is_trial ? map_straight(1) : std::move(straight);
     CommonFrame local = frame;
     local.followed =
         local_motions(*source.molecule, *target.molecule, result.pairing, frame.from_source, frame.from_target);
@@ -410,9 +419,10 @@ struct Series::Steps {
     anew.domains_used = kLocalMotions;
     try {
       MappedStep second = map(target, target_surface, local, std::move(anew), nullptr, "second morph", progress, clock);
+      if (is_trial && !keeps_local(straight, second, *source.molecule)) straight = map_straight(1);
       return better_of(std::move(straight), std::move(second), *source.molecule);
     } catch (const GeometryError& error) {  // no surface remains
-      return without_second(std::move(straight), error.message());
+      return without_second(is_trial ? map_straight(1) : std::move(straight), error.message());
     }
   }
 

@@ -138,10 +138,50 @@ TEST_CASE("a pair that slips has the bits of local motions where they map better
   REQUIRE(result.other_mapping.has_value());
   const espdiff::OtherMapping& other = *result.other_mapping;
   CHECK(other.domains == "none");
-  CHECK(other.slip_area_fraction == straight.certificate.slip->large_area_fraction);
-  CHECK(other.same_residue_area_fraction == straight.certificate.same_residue_area_fraction);
+  // The mapping that was not kept has longer steps.
+  constexpr double kOfSteps = 0.02;
+  CHECK(std::abs(other.slip_area_fraction - straight.certificate.slip->large_area_fraction) < kOfSteps);
+  CHECK(std::abs(other.same_residue_area_fraction - straight.certificate.same_residue_area_fraction) < kOfSteps);
   CHECK(other.own_residue_area_fraction < own_residue_share(result));
-  CHECK(other.own_residue_area_fraction == own_residue_share(straight));
+  CHECK(std::abs(other.own_residue_area_fraction - own_residue_share(straight)) < kOfSteps);
+}
+
+TEST_CASE("a mapping is tried in long steps where atoms go far, and one atom is not enough") {
+  Molecule source, target;
+  espdiff::AtomPairing pairing;
+  constexpr std::size_t kAtoms = 100;
+  for (std::size_t i = 0; i < kAtoms; ++i) {
+    source.positions.push_back({static_cast<double>(i), 0, 0});
+    target.positions.push_back({static_cast<double>(i), 9.9, 0});
+    pairing.pairs.emplace_back(i, i);
+  }
+  const espdiff::CommonFrame frame{};
+  const auto moved = [&](std::size_t atom, double way_A) { target.positions[atom].y = way_A; };
+  CHECK_FALSE(espdiff::will_slip(source, target, pairing, frame));
+  moved(0, 20);
+  CHECK_FALSE(espdiff::will_slip(source, target, pairing, frame));
+  moved(1, 10.1);
+  CHECK(espdiff::will_slip(source, target, pairing, frame));
+  moved(0, 15.9);
+  CHECK_FALSE(espdiff::will_slip(source, target, pairing, frame));
+}
+
+TEST_CASE("the superposition that is kept after a trial in long steps has the bits of usual steps") {
+  const auto a = real_input("series19_ubq_2k39/m14.pqr"), b = real_input("series19_ubq_2k39/m09.pqr");
+  if (!a || !b) return;
+  const Molecule source = espdiff::read_structure(*a, {}), target = espdiff::read_structure(*b, {});
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  const auto compared = [&](const std::string& domains) {
+    CompareOptions options;
+    options.domains = domains;
+    return compare(*engine, {&source, nullptr}, {&target, nullptr}, options, {});
+  };
+  const CompareResult result = compared("as-needed"), straight = compared("none");
+  CHECK(result.domains_used == "none");
+  REQUIRE(result.other_mapping.has_value());
+  CHECK(result.other_mapping->domains == "local");
+  CHECK(hash_of(result) == hash_of(straight));
+  CHECK(result.morph_report.steps == straight.morph_report.steps);
 }
 
 TEST_CASE("the round trip follows the mapping that is kept, and changes neither it nor its bits at one thread") {
