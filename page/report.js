@@ -89,7 +89,7 @@
     return shares;
   });
 
-  // As the shaders of pictures: grey where the place is not trusted, stripes without a counterpart, open inside tears.
+  // As the shaders of pictures: grey where the place is not trusted, stripes where it is unmatched, open inside tears.
   function marked(material, mesh) {
     const glsl = (rgb) => 'vec3(' + rgb.map((c) => (c / 255).toFixed(4)).join(', ') + ')', grey = glsl(record.no_value);
     // Of the reason that most of the surroundings have.

@@ -2,10 +2,10 @@
 #include <tcl.h>
 
 #include "base/version.h"
-#include "boundary.h"
-#include "commands.h"
-#include "molfile_bridge.h"
-#include "worker.h"
+#include "vmdplugin/bridge/boundary.h"
+#include "vmdplugin/bridge/molfile_bridge.h"
+#include "vmdplugin/bridge/worker.h"
+#include "vmdplugin/commands/commands.h"
 
 #define ESPDIFF_ENTRY extern "C" __attribute__((visibility("default")))
 

@@ -15,11 +15,11 @@
 
 #include "base/error.h"
 #include "cli/command_line.h"
-#include "held.h"
 #include "io/files/read_input.h"
 #include "io/frames/frame_reader.h"
 #include "io/structures/coordinate_file.h"
-#include "state.h"
+#include "python/src/boundary/held.h"
+#include "python/src/states/state.h"
 
 namespace espdiff::python {
 namespace {

@@ -50,7 +50,7 @@ std::shared_ptr<CompareResult> part_result(Engine& engine, const SurfacePart& pa
                                            const std::vector<std::int32_t>& target_of, const CompareResult& whole,
                                            const Molecule& source_molecule, const Molecule& target_molecule);
 
-/// The verdict on a part without surface, or without counterparts; no verdict on others.
+/// The verdict on a part without surface, or unmatched as a whole; no verdict on others.
 /// @param placement of an earlier patch; null for others
 /// @returns whether there is one
 bool judge_missing_part(CompareResult& part, const PatchPlacement* placement);

@@ -136,7 +136,7 @@ struct TemplateMapping::Parts {
     return matched;
   }
 
-  /// The fields of a frame at the template's own vertices; NaN where they have no counterpart, or it no value.
+  /// The fields of a frame at the template's own vertices; NaN where they are unmatched, or have no value there.
   void read_fields(const StateFields& of_frame, const CompareInput& frame, const GridPtr& frame_map,
                    const Mapping& mapping, const Surface& target, const CommonFrame& common,
                    const std::vector<Triangle>& triangles, TemplateFrame& out) const {

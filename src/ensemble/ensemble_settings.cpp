@@ -95,7 +95,7 @@ std::vector<Rows::Row> statistics_rows() {
       Rows::number(
           "most-missing", group, {0, true, "a number from 0 to 0.9", 0.9},
           [](auto& o) -> auto& { return o.statistics.most_missing; },
-          "A vertex that a larger share of a group's frames does not trust, or has no counterpart for, is not tested"),
+          "A vertex that is unmatched or not trusted in a larger share of a group's frames is not tested"),
       Rows::count(
           "permutations", group, {20, true, "a whole number from 20 to 1000000", 1e6},
           [](auto& o) -> auto& { return o.statistics.test.max_permutations; },

@@ -45,7 +45,7 @@ void share_page_ranges(nlohmann::ordered_json& page, const std::string& prefix, 
 /// Which triangles a page marks, and how it calls them.
 struct PageMarks {
   std::vector<std::uint8_t> unmatched, untrusted;  ///< [triangle] nonzero; the second of matched ones only; empty: none
-  const char* unmatched_text = "no counterpart";
+  const char* unmatched_text = "unmatched";
 };
 
 /// The quantity `why`, and `reasons` of the record: words with the share of the surface, colour, and the share around

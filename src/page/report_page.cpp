@@ -159,7 +159,7 @@ Json quantities_json(PageArrays& arrays, const PairFiles& files) {
   return list;
 }
 
-/// What has no counterpart, and what has one and is not trusted.
+/// What is unmatched, and what is matched and not trusted.
 PageMarks marks_of(const VtpContent& surface) {
   PageMarks marks{page_flags(surface, "no_counterpart"), std::vector<std::uint8_t>(surface.triangles.size(), 0)};
   for (const char* name : {"why", "corrupt"}) {

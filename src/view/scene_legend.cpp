@@ -123,7 +123,7 @@ void add_reasons(Legend& legend, const ComparisonScene& scene, const Paper& pape
     legend.key(here, y, kDrawnReasons[r].colour, 1, meaning);
   }
   if (!scene.geometry().has(SurfacePart::kUnmatched)) return;
-  const std::string meaning = reason_in_words("no counterpart", 1 - matched);
+  const std::string meaning = reason_in_words("unmatched", 1 - matched);
   const double here = place(meaning);
   legend.hatched_key(here, y, meaning);
 }
@@ -146,7 +146,7 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   const bool untrusted = scene.geometry().has_untrusted() && compares_places(sheets.front().array);
   const bool no_value = !untrusted && scene.scale(sheets.front().array).has_missing();
   const bool unmatched = scene.geometry().has(SurfacePart::kUnmatched);
-  const char* const unmatched_words = scene.shows_significance() ? "not tested" : "no counterpart";
+  const char* const unmatched_words = scene.shows_significance() ? "not tested" : "unmatched";
   const auto needed = [&](bool drawn, const char* meaning) {
     return drawn ? legend.key_width(meaning) + paper.text_height : 0.0;
   };

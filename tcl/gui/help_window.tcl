@@ -18,8 +18,8 @@ weighted by area. The mapping has a direction: Swap exchanges the sides. Rest th
 Table shows all numbers, Export writes them with the surface.
 
 4. Draw colours the surface in VMD's window. Difference is target - source: red where it became more negative, blue
-where more positive. Colours fade into grey where the slip is large: the values are less certain there. Parts
-without a counterpart are grey and hatched. "Side by side"
+where more positive. Colours fade into grey where the slip is large: the values are less certain there. Unmatched
+parts are grey and hatched. "Side by side"
 draws source, target and difference in three views that the mouse rotates together; Undraw restores VMD's view.
 
 5. Residues lists the means over each residue's part of the surface, the largest share of the difference first; click a

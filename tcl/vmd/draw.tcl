@@ -28,7 +28,7 @@ namespace eval ::espdiff {
     variable scale_method RWB  ;# VMD's colour scale whose colours are replaced temporarily
 
     variable plain_color 2    ;# gray, neutral_grey as a number: no quantity, points outside a map, what is uncertain
-    variable stripe_color 8   ;# white: light stripes of what has no counterpart
+    variable stripe_color 8   ;# white: light stripes of unmatched surface
     variable marked_color 4   ;# yellow: parts that are not trusted, with -corrupt mark
     variable said_rendermode 0  ;# whether the user was told that transparency needs GLSL
 
@@ -150,7 +150,7 @@ namespace eval ::espdiff {
         }
         set side [expr {[dict get $options surface] eq "mapped" ? "target" : "source"}]
         if {[dict get [core::result $handle] certificate no_counterpart_area_fraction $side] > 0} {
-            lappend words "hatched: no counterpart"
+            lappend words "hatched: unmatched"
         }
         return [join $words "; "]
     }
@@ -232,7 +232,7 @@ namespace eval ::espdiff {
             [list [list "opacity $least" 0 $least [list {from 1}]]]]
     }
 
-    # What `core::triangles` draws for each reason, and the stripes of what has no counterpart.
+    # What `core::triangles` draws for each reason, and the stripes of unmatched surface.
     proc reason_bands {reasons} {
         variable reason_colors
         variable plain_color

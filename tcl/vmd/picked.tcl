@@ -63,7 +63,7 @@ namespace eval ::espdiff {
         foreach row [core::residues $handle] {
             if {[dict get $row index] == [dict get $seen residue]} { set where [residue_name $row]; break }
         }
-        if {![dict get $seen matched]} { append where " (no counterpart)" }
+        if {![dict get $seen matched]} { append where " (unmatched)" }
         set words {}
         lassign [list [dict get $seen source] [dict get $seen target]] source target
         if {$source ne ""} { lappend words "source [format %.3g $source]" }

@@ -106,7 +106,7 @@ TEST_CASE("a page holds the numbers, the residues and the verdict of its result,
   }
 }
 
-TEST_CASE("what is not trusted or has no counterpart ends at a smooth line, as in pictures") {
+TEST_CASE("what is not trusted or unmatched ends at a smooth line, as in pictures") {
   VtpContent sheet;  // 21 x 21 vertices: the left is not trusted, a square is unmatched, and lost
   std::vector<Vec3d> start;
   PageMarks marks;
@@ -156,7 +156,7 @@ TEST_CASE("what is not trusted or has no counterpart ends at a smooth line, as i
   CHECK(share("matched", 15, 10) < 0.2);
   CHECK(share("matched", 13, 8) < 0.5);
   CHECK(share("matched", 10, 10) > 0.5);
-  CHECK(page.at("cover").at("matched").at("text") == "no counterpart");
+  CHECK(page.at("cover").at("matched").at("text") == "unmatched");
   CHECK(page.at("cover").at("trusted").at("text") == "not trusted");
   CHECK(page.at("positions").at("target").at("max") == doctest::Approx(20));  // lost vertices follow their surroundings
   nlohmann::ordered_json whole;
@@ -310,14 +310,14 @@ TEST_CASE("a browser has the numbers of the file; a field's target is the sum of
   CHECK_MESSAGE(contains(*dom, "data-seen=\"" + std::to_string(wanted.size()) + "|same\""), dom->substr(0, 400));
 }
 
-TEST_CASE("a browser marks what has no counterpart and what is not trusted, each with its key") {
+TEST_CASE("a browser marks what is unmatched and what is not trusted, each with its key") {
   if (!has_three()) return;
   const SmallResult result;
   const std::string whole = report_page(result.prefix, "");
   auto record = nlohmann::json::parse(element(whole, "record"));
   CHECK(record.at("cover").empty());
   CHECK(!contains(whole, "REVISION"));  // three.js is packed
-  // Every vertex is half trusted in one page, and has no counterpart in the other: one number for all.
+  // Every vertex is half trusted in one page, and is unmatched in the other: one number for all.
   const std::size_t n = record.at("n_vertices");
   const auto with = [&](const char* part, double share) {
     auto changed = record;

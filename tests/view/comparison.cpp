@@ -333,7 +333,7 @@ TEST_CASE("a picked point is described in text") {
   CHECK(contains(text(), "not trusted here"));
   point.is_matched = false;
   point.target = std::nanf("");
-  CHECK(contains(text(), "without a counterpart on the target"));
+  CHECK(contains(text(), "unmatched: no place on the target"));
   CHECK(contains(text(), "target            no value"));
 }
 

@@ -1,5 +1,5 @@
 // boundary.cpp: every exception becomes a class and a line; no exception passes.
-#include "vmdplugin/boundary.h"
+#include "vmdplugin/bridge/boundary.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // clip_surface.cpp: parts of a cut surface add up to the whole and meet in the same vertices.
-#include "vmdplugin/clip_surface.h"
+#include "vmdplugin/bridge/clip_surface.h"
 
 #include <doctest/doctest.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "vmdplugin/molfile_bridge.h"
+#include "vmdplugin/bridge/molfile_bridge.h"
 
 namespace espdiff_test {
 

@@ -1,5 +1,5 @@
 // fingerprint.cpp: equal maps have equal hashes, whatever lies between their members.
-#include "vmdplugin/fingerprint.h"
+#include "vmdplugin/bridge/fingerprint.h"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // graphics_draw.cpp: what a command `graphics` is called with, when it is made of C strings as VMD's, or a Tcl
 // procedure.
 #undef USE_TCL_STUBS  // this program is a whole Tcl, not a module of one
-#include "vmdplugin/graphics_draw.h"
+#include "vmdplugin/bridge/graphics_draw.h"
 
 #include <doctest/doctest.h>
 

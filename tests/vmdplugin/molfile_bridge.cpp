@@ -1,5 +1,5 @@
 // molfile_bridge.cpp: registration, volumes through memory in every version of the interface, and what is refused.
-#include "vmdplugin/molfile_bridge.h"
+#include "vmdplugin/bridge/molfile_bridge.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // volume_store.cpp: putting, replacing and taking volumes, and what is refused.
-#include "vmdplugin/volume_store.h"
+#include "vmdplugin/bridge/volume_store.h"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // worker.cpp: jobs one after the other, failures as they were thrown, cancelling at any moment, and the end of the
 // thread.
-#include "vmdplugin/worker.h"
+#include "vmdplugin/bridge/worker.h"
 
 #include <doctest/doctest.h>
 

@@ -57,7 +57,7 @@ const char* reason_of(int why) {
 }
 
 std::string trust(const PickedPoint& point) {
-  if (!point.is_matched) return "without a counterpart on the target";
+  if (!point.is_matched) return "unmatched: no place on the target";
   if (point.is_untrusted) return std::string("not trusted here: ") + reason_of(point.why);
   return "trusted here";
 }

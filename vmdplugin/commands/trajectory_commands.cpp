@@ -1,0 +1,313 @@
+// trajectory_commands.cpp: runs over frames, step by step from Tcl; ranges of frames; CSV tables.
+#include <sstream>
+
+#include "base/error.h"
+#include "base/molecule/surface_parts.h"
+#include "commands.h"
+#include "engine/engine.h"
+#include "frames/frame_range.h"
+#include "frames/frame_state.h"
+#include "io/files/check_outputs.h"
+#include "io/files/read_csv.h"
+#include "io/files/write_csv.h"
+#include "options/input_settings.h"
+#include "potential/potential.h"
+#include "potential/potential_settings.h"
+#include "prepare/input_files.h"
+#include "trajectory/series_head.h"
+#include "vmdplugin/values/tcl_values.h"
+
+namespace espdiff::vmdplugin {
+namespace {
+
+ExistingFile existing_file(DictReader& reader) {
+  const bool resume = reader.boolean("resume", false), overwrite = reader.boolean("overwrite", false);
+  if (resume && overwrite)
+    throw InputError(switched_on("resume") + " and " + switched_on("overwrite") + " exclude each other");
+  return resume ? ExistingFile::kResume : overwrite ? ExistingFile::kReplace : ExistingFile::kRefuse;
+}
+
+SeriesHead pairs_of(Tcl_Obj* list, const std::string& what) {
+  SeriesHead pairs;
+  const std::vector<Tcl_Obj*> words = to_vector(list, what);
+  for (std::size_t i = 0; i + 1 < words.size(); i += 2)
+    pairs.emplace_back(to_string(words[i]), to_string(words[i + 1]));
+  return pairs;
+}
+
+/// A computed potential with all its settings as text; other maps unchanged.
+std::string map_in_words(Tcl_Obj* map, double temperature_K) {
+  const std::vector<Tcl_Obj*> words = to_vector(map, "map");
+  const std::string kind = words.empty() ? std::string() : to_string(words[0]);
+  if (kind != "pb" && kind != "pme" && kind != "coulomb") return to_string(map);
+  GivenPotentialSettings given;
+  std::string others;  // which atoms, which cell, over how many frames
+  for (std::size_t i = 1; i + 1 < words.size(); i += 2) {
+    const std::string key = to_string(words[i]), value = to_string(words[i + 1]);
+    if (key == "sel" || key == "cell" || key == "average") {
+      others += " " + key + " " + value;
+    } else {
+      given.emplace_back(key, value);
+    }
+  }
+  return potential_in_words(make_potential_options(parse_potential_method(kind), given, temperature_K)) + others;
+}
+
+SeriesDescription parse_description(DictReader& reader, double temperature_K) {
+  SeriesDescription run;
+  if (Tcl_Obj* const file = reader.find("file")) run.files = {to_string(file)};
+  if (Tcl_Obj* const molecule = reader.find("molecule")) run.molecule = pairs_of(molecule, "molecule");
+  for (Tcl_Obj* const frame : to_vector(reader.require("frames"), "frames"))
+    run.frames.push_back(to_int(frame, "frames"));
+  run.reference = to_string(reader.require("reference"));
+  if (Tcl_Obj* const map = reader.find("map")) run.map = map_in_words(map, temperature_K);
+  if (Tcl_Obj* const map = reader.find("reference_map")) run.reference_map = map_in_words(map, temperature_K);
+  return run;
+}
+
+Reference parse_reference(const std::string& text) {
+  if (text == "one") return Reference::kOne;
+  if (text == "previous") return Reference::kPrevious;
+  if (text == "same") return Reference::kSame;
+  throw InputError("against: '" + text + "' is not one, previous or same");
+}
+
+/// PLAN: csv FILE ?resume B? ?overwrite B? frames LIST reference TEXT ?row_reference TEXT? ?against one|previous|same?
+/// ?source_file PATH? (whose frames are the sources) ?map TEXT? ?reference_map TEXT? ?one_map B? ?start S? ?on_error E?
+/// ?region B? (the reference has one) ?residues FILE? ?residue_quantity Q? inputs FILES (which no output may replace)
+/// and file PATH or molecule {NAME TEXT ...}, lines of the head.
+Tcl_Obj* trajectory(const Call& call) {
+  auto object = std::make_shared<TrajectoryObject>();
+  DictReader options(call.arguments[1], "options");
+  object->computation = parse_computation(options, nullptr);
+  DictReader reader(call.arguments[0], "plan");
+  const std::string csv = to_string(reader.require("csv"));
+  const ExistingFile existing = existing_file(reader);
+  SeriesDescription run = parse_description(reader, object->computation.options.temperature_K);
+  TrajectoryPlan plan;
+  plan.options = object->computation.options;
+  plan.frames = run.frames;
+  plan.against = parse_reference(reader.text("against", "one"));
+  plan.reference = reader.text("row_reference", run.reference);
+  plan.start = run.start = parse_start(reader.text("start", "auto"), plan.options);
+  plan.skip_errors = reader.text("on_error", "stop") == "skip";
+  plan.compared = parts_and_fields(plan.options);
+  if (reader.boolean("region", false) && !plan.options.input.has_region())
+    plan.compared.parts.insert(plan.compared.parts.begin(), kRegionPart);
+  object->one_map = reader.boolean("one_map", false);
+  object->against = plan.against;
+  const std::string source_file = reader.text("source_file", ""), residues = reader.text("residues", ""),
+                    quantity = reader.text("residue_quantity", "");
+  std::vector<std::string> inputs = input_files(plan.options.input);
+  for (Tcl_Obj* const path : to_vector(reader.require("inputs"), "inputs")) inputs.push_back(to_string(path));
+  reader.finish();
+  inputs.insert(inputs.end(), run.files.begin(), run.files.end());
+  inputs.push_back(source_file);
+  check_outputs(inputs, {csv, csv + ".state", residues});
+  if (!source_file.empty()) run.reference_files = {source_file};
+  const SeriesHead head = series_head(run, plan.options);
+  std::optional<ResidueCsv> table;
+  if (!residues.empty()) table.emplace(residues, quantity, existing, plan.options.fields);
+  SeriesCsv rows(csv, head, existing, plan.compared);
+  object->run = std::make_unique<TrajectoryRun>(std::move(plan), std::move(rows), std::move(table));
+  if (!run.files.empty()) object->files = std::make_unique<FrameFiles>(run.files);
+  if (!source_file.empty()) object->source_files = std::make_unique<FrameFiles>(std::vector{source_file});
+  return to_obj(call.handles.add(object));
+}
+
+/// The run of a handle, between two steps.
+std::shared_ptr<TrajectoryObject> resting(const Call& call) {
+  auto object = call.handles.find_trajectory(call.text(0));
+  if (object->job != nullptr && !object->job->finished())
+    throw InputError(call.text(0) + " is still comparing a frame; wait for it");
+  return object;
+}
+
+/// The next step, {frame N reference R source S}; empty after the last one. S is the frame that is the source, unless
+/// all frames have one.
+Tcl_Obj* trajectory_next(const Call& call) {
+  const auto object = resting(call);
+  if (object->run->is_done()) return Tcl_NewObj();
+  const TrajectoryStep& step = object->run->next();
+  return to_dict({{"frame", to_obj(step.frame)},
+                  {"reference", to_obj(step.reference)},
+                  {"source", step.source ? to_obj(*step.source) : Tcl_NewObj()}});
+}
+
+/// The source of all frames.
+Tcl_Obj* trajectory_source(const Call& call) {
+  resting(call)->source = shared_endpoint(call.arguments[1], "source");
+  return nullptr;
+}
+
+/// pme takes the water of a file's frames.
+bool takes_everything(const State& state) {
+  if (!state.potential || state.potential->charges.size() > 0) return false;
+  return state.potential->method == PotentialMethod::kPme;
+}
+
+/// Reads a side: a frame of the run's file through its one open text, or what Tcl gave.
+ComparedState read_side(TrajectoryObject& object, StateRole role, std::optional<int> frame, const Progress& progress) {
+  const CompareOptions& options = object.computation.options;
+  const bool is_source = role == StateRole::kSource;
+  const StatePtr& given = is_source ? object.source : object.target;
+  FrameFiles* const files =
+      is_source && object.against == Reference::kSame ? object.source_files.get() : object.files.get();
+  ComparedState state;
+  state.role = to_string(role);
+  if (frame && files != nullptr && !given->path.empty()) {
+    static const LoadedState none;
+    state.loaded = load_frame_state(*files, *frame, given->structure, is_source ? none : object.loaded_source.loaded(),
+                                    takes_everything(*given), options.input, progress, role);
+    if (is_source && given->potential)
+      state.loaded.preparation =
+          charge_molecule(state.loaded.molecule, options.input, {}, state.loaded.charge_files, progress);
+  } else {
+    const Molecule* const source = is_source ? nullptr : &object.loaded_source.loaded().molecule;
+    state = StateReader({options, {}, true}, {given}, progress).read(role, source);
+  }
+  add_map(*given, {}, options.temperature_K, state);
+  return state;
+}
+
+/// The inputs of all rows: the one source, and a map of all frames.
+std::vector<InputFile> common_inputs(const TrajectoryObject& object) {
+  std::vector<InputFile> inputs;
+  const ComparedState& source = object.loaded_source.state();
+  if (object.against == Reference::kOne) {
+    inputs = source.inputs;
+    inputs.insert(inputs.end(), source.map_inputs.begin(), source.map_inputs.end());
+  }
+  const std::vector<InputFile>& of_map = object.loaded_target.map_inputs;
+  if (object.one_map) inputs.insert(inputs.end(), of_map.begin(), of_map.end());
+  return inputs;
+}
+
+/// Reads, compares and writes one frame, on the worker's thread.
+void run_step(TrajectoryObject& object, const Progress& progress) {
+  object.row.reset();
+  TrajectoryRun& run = *object.run;
+  if (object.engine == nullptr) object.engine = engine_for(object.computation);
+  // A failure of the common source ends the run, even with -on-error skip.
+  const InputOptions& options = object.computation.options.input;
+  SeriesSource& source = object.loaded_source;
+  const bool has_one_source = object.against == Reference::kOne;
+  if (has_one_source && object.source != nullptr) {
+    source.take(read_side(object, StateRole::kSource, std::nullopt, progress), options);
+    object.loaded_target = {};
+    run.note_inputs(common_inputs(object));
+    object.source = nullptr;  // once
+  }
+  const auto read = [&] {
+    const TrajectoryStep& step = run.next();
+    if (!has_one_source) source.take(read_side(object, StateRole::kSource, step.source, progress), options);
+    object.loaded_target = read_side(object, StateRole::kTarget, step.frame, progress);
+    return StepInput{source.side(), source.frame(object.loaded_target, options), common_inputs(object),
+                     &source.loaded(), &object.loaded_target.loaded};
+  };
+  if (const SeriesRow* const row = run.step(*object.engine, read, progress)) object.row = *row;
+}
+
+/// The sides of a frame: TARGET, and SOURCE unless all frames have one.
+Tcl_Obj* trajectory_step(const Call& call) {
+  const auto object = resting(call);
+  if ((object->against != Reference::kOne) != (call.arguments.size() > 2))
+    throw InputError("a source is given for each frame, unless all frames have one");
+  object->target = shared_endpoint(call.arguments[1], "target");
+  if (object->against != Reference::kOne) object->source = shared_endpoint(call.arguments[2], "source");
+  object->job = Worker::instance().submit([keep = std::weak_ptr<TrajectoryObject>(object)](const Progress& progress) {
+    if (const auto alive = keep.lock()) run_step(*alive, progress);
+  });
+  return nullptr;
+}
+
+/// The next frame failed with MESSAGE and errorcode {ESPDIFF CLASS}: writes a row with the error, or throws it.
+Tcl_Obj* trajectory_skip(const Call& call) {
+  const auto object = resting(call);
+  object->row.reset();
+  if (const SeriesRow* const row = object->run->skip(error_of_class(call.text(2), call.text(1)))) object->row = *row;
+  return nullptr;
+}
+
+/// The row that the last step added, by column; empty if the file had it already.
+Tcl_Obj* trajectory_row(const Call& call) {
+  const auto object = resting(call);
+  Tcl_Obj* const dict = Tcl_NewDictObj();
+  if (!object->row) return dict;
+  for (const std::string& column : object->row->columns())
+    Tcl_DictObjPut(nullptr, dict, to_obj(column), to_obj((*object->row)[column]));
+  return dict;
+}
+
+Tcl_Obj* trajectory_columns(const Call&) { return to_list(series_columns()); }
+
+Tcl_Obj* trajectory_summary(const Call& call) {
+  const auto object = resting(call);
+  const TrajectorySummary s = object->run->summary();
+  return to_dict({{"frames", to_obj(s.n_frames)},
+                  {"rows", to_obj(s.n_rows)},
+                  {"skipped", to_obj(s.n_skipped)},
+                  {"resumed", to_obj(s.n_resumed)},
+                  {"csv", to_obj(object->run->file().path())}});
+}
+
+/// Reason why the first mapping of a resumed run starts from the source; usually empty.
+Tcl_Obj* trajectory_warning(const Call& call) { return to_obj(resting(call)->run->warning()); }
+
+/// Ends the run between two frames; throws the error of a cancelled run.
+Tcl_Obj* trajectory_cancelled(const Call& call) { throw resting(call)->run->cancelled(); }
+
+/// OPTION TEXT N NOW OF: a list of frames; NOW is empty if there is no current frame.
+Tcl_Obj* frames(const Call& call) {
+  FrameSet set;
+  set.what = call.text(0);
+  set.n_frames = to_int(call.arguments[2], "number of frames");
+  if (!call.text(3).empty()) set.now = to_int(call.arguments[3], "now");
+  set.of = call.text(4);
+  std::vector<Tcl_Obj*> all;
+  for (const int frame : parse_frames(call.text(1), set)) all.push_back(to_obj(frame));
+  return to_list(all);
+}
+
+/// {columns LIST rows LIST}, each row a dict by column.
+Tcl_Obj* read_table(const Call& call) {
+  const CsvTable table = read_csv(call.text(0));
+  std::vector<Tcl_Obj*> rows;
+  for (const auto& cells : table.rows) {
+    rows.push_back(Tcl_NewDictObj());
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      Tcl_DictObjPut(nullptr, rows.back(), to_obj(table.columns[i]), to_obj(cells[i]));
+  }
+  return to_dict({{"columns", to_list(table.columns)}, {"rows", to_list(rows)}});
+}
+
+/// Rows, each a list of fields, as the text of a CSV file.
+Tcl_Obj* csv_text(const Call& call) {
+  std::ostringstream text;
+  for (Tcl_Obj* const row : to_vector(call.arguments[0], "rows")) {
+    std::vector<std::string> fields;
+    for (Tcl_Obj* const field : to_vector(row, "row")) fields.push_back(to_string(field));
+    write_csv_row(text, fields);
+  }
+  return to_obj(text.str());
+}
+
+}  // namespace
+
+std::vector<Command> trajectory_commands() {
+  return {{"trajectory", 2, 2, "plan options", trajectory},
+          {"trajectory_source", 2, 2, "handle source", trajectory_source},
+          {"trajectory_next", 1, 1, "handle", trajectory_next},
+          {"trajectory_step", 2, 3, "handle target ?source?", trajectory_step},
+          {"trajectory_skip", 3, 3, "handle message class", trajectory_skip},
+          {"trajectory_row", 1, 1, "handle", trajectory_row},
+          {"trajectory_columns", 0, 0, "", trajectory_columns},
+          {"trajectory_summary", 1, 1, "handle", trajectory_summary},
+          {"trajectory_warning", 1, 1, "handle", trajectory_warning},
+          {"trajectory_cancelled", 1, 1, "handle", trajectory_cancelled},
+          {"frames", 5, 5, "option text number now of", frames},
+          {"read_csv", 1, 1, "file", read_table},
+          {"csv_text", 1, 1, "rows", csv_text}};
+}
+
+}  // namespace espdiff::vmdplugin
