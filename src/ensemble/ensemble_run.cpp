@@ -44,9 +44,11 @@ EnsembleFile open_file(const std::string& path, const EnsemblePlan& plan, const 
   if (run.resume && run.overwrite)
     throw InputError(option("resume") + " and " + option("overwrite") + " exclude each other; leave one out");
   const bool exists = fs::exists(path);
-  if (exists && !run.resume && !run.overwrite)
+  if (exists && !run.resume && !run.overwrite) {
+    const EnsembleFile readable(path, false);  // what cannot be continued is refused with its own remedy
     throw InputError("the ensemble file " + path + " exists; " + switched_on("resume") + " continues it, " +
                      switched_on("overwrite") + " begins anew");
+  }
   if (exists && run.resume) {
     EnsembleFile file(path, true);
     refuse_other_plan(file, plan);

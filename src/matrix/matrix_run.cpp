@@ -88,9 +88,11 @@ void check_existing(const MatrixRun& run, bool has_parts, const PartsAndFields& 
   if (run.resume && run.overwrite)
     throw InputError(option("resume") + " and " + option("overwrite") + " exclude each other; leave one out");
   const std::string state = state_path(run.output, run.shard);
-  if (!run.overwrite && !run.resume && fs::exists(state))
+  if (!run.overwrite && !run.resume && fs::exists(state)) {
+    read_matrix_state(state);  // what cannot be continued is refused with its own remedy
     throw InputError("the state file " + state + " of an earlier run exists; " + switched_on("resume") +
                      " continues it, " + switched_on("overwrite") + " begins anew");
+  }
   // A shard's results come with the merge.
   if (run.shard.count == 1) check_results(run, run.overwrite || (run.resume && has_parts), compared);
 }

@@ -124,7 +124,9 @@ std::string last_sum(const std::string& bytes, std::size_t n_bytes) {
 MatrixStateContent read_matrix_state(const std::string& path) {
   const std::string bytes = read_all(path);
   if (bytes.compare(0, std::strlen(kTag), kTag) != 0)
-    throw FormatError(path, 1, "this is no state file of a matrix (or of another version of it); name another output");
+    throw FormatError(path, 1,
+                      "this is no state file of a matrix of this version; give another file, or begin anew (" +
+                          switched_on("overwrite") + ")");
   LineReader reader(path, bytes);
   reader.skip_tag();
   MatrixStateContent content;

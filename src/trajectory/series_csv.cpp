@@ -54,9 +54,10 @@ SeriesCsv::SeriesCsv(std::string path, SeriesHead head, ExistingFile existing, P
 }
 
 void SeriesCsv::read_rows() {
-  const std::string text = file_.text();
+  const std::string text = file_.text(), first_words = kFirstWords;
   const std::string lines = complete_lines(text);
-  if (text.rfind(kFirstWords, 0) == 0 && has_comments_only(lines)) return;  // only a part of the head
+  if (first_words.rfind(text, 0) == 0) return;                              // cut off in the first words
+  if (text.rfind(first_words, 0) == 0 && has_comments_only(lines)) return;  // only a part of the head
   const CsvTable table = parse_csv(lines, path());
   SeriesHead in_file;
   for (const std::string& comment : table.comments) {

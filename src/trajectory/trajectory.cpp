@@ -102,7 +102,10 @@ TrajectoryRun::TrajectoryRun(TrajectoryPlan plan, SeriesCsv file, std::optional<
 }
 
 TrajectorySummary TrajectoryRun::summary() const {
-  return {steps_.size(), file_.rows().size() - n_resumed_, n_skipped_, n_resumed_};
+  const auto& rows = file_.rows();
+  const auto n_trusted =
+      std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row["trustworthy"] == "1"; });
+  return {steps_.size(), rows.size() - n_resumed_, n_skipped_, n_resumed_, static_cast<std::size_t>(n_trusted)};
 }
 
 void TrajectoryRun::check_earlier_rows() const {

@@ -61,6 +61,7 @@ struct TrajectorySummary {
   std::size_t n_rows = 0;     ///< rows added by this run
   std::size_t n_skipped = 0;  ///< rows with an error instead of numbers
   std::size_t n_resumed = 0;  ///< rows that were in the file before
+  std::size_t n_trusted = 0;  ///< trustworthy rows, of all in the file
 };
 
 /// A run over frames. Existing rows are not computed again; they must be of the run's first frames.

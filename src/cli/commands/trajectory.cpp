@@ -171,6 +171,8 @@ int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
   std::cout << formatted("rows           %zu written, %zu were there\n", summary.n_rows, summary.n_resumed);
   if (summary.n_skipped > 0)
     std::cout << formatted("errors         %zu rows have one instead of numbers\n", summary.n_skipped);
+  std::cout << formatted("trustworthy    %zu of %zu rows%s\n", summary.n_trusted, summary.n_frames,
+                         summary.n_trusted < summary.n_frames ? "; column reasons says why the others are not" : "");
   std::cout << formatted("time           %.1f s\n", s);
   if (!a.picture.empty()) std::cout << "written        " << a.output << ", " << a.picture << '\n';
   return 0;

@@ -109,12 +109,11 @@ struct EnsembleFile::Contents {
     file = OpenFile(path, for_writing ? FileAccess::kReadWrite : FileAccess::kRead);
     if (!file) throw IoError(path, std::string("cannot be opened: ") + system_message(file.error()));
     if (for_writing && !lock(file, path)) throw busy(path);
-    const std::uint64_t intended = intended_size(path);
-    if (for_writing) {
-      extend(file, path);
-    } else if (intended > fs::file_size(path)) {
+    const bool lacks_end = intended_size(path) > fs::file_size(path);
+    if (lacks_end) check_ensemble_head(file, path);  // without it nothing can be computed again
+    if (lacks_end && !for_writing)
       throw FormatError(path, 0, "lost its end; " + switched_on("resume") + " computes again what is missing");
-    }
+    if (for_writing) extend(file, path);
   }
 
   void read() {

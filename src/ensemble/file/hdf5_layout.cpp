@@ -304,9 +304,11 @@ std::uint64_t structure_checksum(const OpenFile& file, const std::string& path, 
   return sum;
 }
 
-EnsembleContents read_contents(const OpenFile& file, const std::string& path) {
-  const Hdf5Reader reader(file, path);
-  if (!reader.has("/espdiff")) throw FormatError(path, 0, "an HDF5 file, but not one of `espdiff ensemble`");
+/// The description of the run and the template, which stand before the frames.
+EnsembleContents read_head(const Hdf5Reader& reader, const std::string& path) {
+  if (!reader.has("/espdiff"))
+    throw FormatError(
+        path, 0, std::string("an HDF5 file, but not one of `espdiff ensemble`") + kRemedy + switched_on("overwrite"));
   EnsembleContents contents;
   const auto plan = reader.read<char>("/espdiff/plan", 'u');
   contents.plan.assign(plan.begin(), plan.end());
@@ -321,6 +323,12 @@ EnsembleContents read_contents(const OpenFile& file, const std::string& path) {
     throw FormatError(path, 0,
                       std::string("the template or the description of the run in this file is damaged") + kRemedy +
                           switched_on("overwrite"));
+  return contents;
+}
+
+EnsembleContents read_contents(const OpenFile& file, const std::string& path) {
+  const Hdf5Reader reader(file, path);
+  EnsembleContents contents = read_head(reader, path);
   EnsembleLayout& layout = contents.layout;
   layout.n_vertices = contents.positions.size();
   Hdf5Dataset values = reader.find("/VTKHDF/PointData/potential");
@@ -368,6 +376,8 @@ EnsembleContents open_hdf5_file(const OpenFile& file, const std::string& path) {
                           switched_on("overwrite"));
   return contents;
 }
+
+void check_ensemble_head(const OpenFile& file, const std::string& path) { read_head({file, path}, path); }
 
 std::uint64_t add_to_checksum(std::uint64_t sum, const void* bytes, std::size_t n) {
   const auto* const b = static_cast<const unsigned char*>(bytes);

@@ -50,6 +50,9 @@ struct EnsembleContents {
 /// @param file open for reading
 /// @throws FormatError (not an ensemble file; damaged anywhere but in the frames)
 EnsembleContents open_hdf5_file(const OpenFile& file, const std::string& path);
+/// Only what stands before the frames; for a file that lacks its end.
+/// @throws FormatError (not an ensemble file; its description or template is damaged or missing)
+void check_ensemble_head(const OpenFile& file, const std::string& path);
 
 /// The size that a file should have, by its first bytes; 0 if it is no HDF5 file that we wrote.
 std::uint64_t intended_size(const std::string& path);

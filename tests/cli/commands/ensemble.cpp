@@ -879,6 +879,17 @@ TEST_CASE("a file of other settings, of another template, or in the way is refus
   const std::string bytes = read_file(in.folder.file("out.h5"));
   CHECK(in.ensemble(in.groups + " -q -o out --template 0").err ==
         "espdiff: the ensemble file out.h5 exists; --resume continues it, --overwrite begins anew\n");
+  // One remedy for a file that cannot be continued, whether or not --resume is given.
+  const std::string remedy = "; begin anew with another output, or with --overwrite\n";
+  for (const auto& [n_bytes, what] : {std::pair{5, "not the OUT.h5 of an ensemble: no HDF5 file"},
+                                      std::pair{1000, "the file is cut off, or its structure is damaged"}}) {
+    for (const char* resume : {"", " --resume"}) {
+      const std::string part = bytes.substr(0, static_cast<std::size_t>(n_bytes));
+      in.folder.write("cut.h5", part);
+      CHECK(in.ensemble(in.groups + " -q -o cut --template 0" + resume).err == "espdiff: cut.h5: " + (what + remedy));
+      CHECK(read_file(in.folder.file("cut.h5")) == part);
+    }
+  }
   CHECK(in.ensemble(in.groups + " -q -o out --template 1 --resume").err ==
         "espdiff: out.h5 is of another run: the template is wild, replicate w1, frame 0 there and wild, replicate w1, "
         "frame 1 here; --overwrite begins anew\n");

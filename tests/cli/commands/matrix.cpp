@@ -71,6 +71,14 @@ TEST_CASE("a run that was killed continues and writes the same bytes") {
   const Outcome again = files.matrix("killed");
   CHECK(again.status == 2);
   CHECK(contains(again.err, "--resume continues it"));
+  // One remedy for a state that cannot be continued, whether or not --resume is given.
+  std::ofstream(files.out("cut.state")) << read_file(state).substr(0, 60);
+  for (const char* resume : {"", "--resume"}) {
+    const Outcome cut = files.matrix("cut", resume);
+    CHECK(cut.status == 2);
+    CHECK(cut.err == "espdiff: " + files.out("cut.state") +
+                         ":2: the state file is cut off before its first row; run anew (--overwrite)\n");
+  }
   const Outcome resumed = files.matrix("killed", "--resume");
   REQUIRE_MESSAGE(resumed.status == 0, resumed.err);
   CHECK(contains(resumed.out, std::to_string(n_rows) + " were there already"));

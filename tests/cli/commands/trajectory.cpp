@@ -93,6 +93,9 @@ TEST_CASE("trajectory: frames of several files, charges and radii from the sourc
   }
   CHECK_MESSAGE(outcome.status == 0, outcome.err);
   CHECK(contains(outcome.out, "5 written, 0 were there"));
+  const auto trusted = column(folder.file("a.csv"), "trustworthy");
+  CHECK(contains(outcome.out,
+                 std::to_string(std::count(trusted.begin(), trusted.end(), "1")) + " of 5 rows; column reasons"));
   CHECK(column(folder.file("a.csv"), "frame") == std::vector<std::string>{"0", "1", "2", "3", "4"});
   CHECK(column(folder.file("a.csv"), "potential_unit")[4] == "kT/e in vacuum");
   // The first frame is the source itself: the same radii and charges, hence nothing differs but rounding to 0.001 A.
