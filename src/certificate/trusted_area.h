@@ -53,9 +53,9 @@ struct TrustedArea {
   double share() const { return source < target || source != source ? source : target; }
 };
 
-/// Trusted area on side chains that turned about their bonds, farther than kLargeSlip_A from where they carried it, up to
-/// kFarTurn_A unless kAll are kept (turned_side_chains.h). There the mapping finds the residue, but another of its faces, so that a potential is
-/// compared with that beside it.
+/// Trusted area on side chains that turned about their bonds, farther than kLargeSlip_A from where they carried it, and
+/// within kFarTurn_A unless kAll are kept (turned_side_chains.h). There the mapping finds the residue, but another of its
+/// faces, so that a potential is compared with that beside it.
 struct TurnedArea {
   double of_trusted = kNaN;                ///< its share of the trusted area of the source; NaN without any
   double mean_abs_difference = kNaN;       ///< over the rest of the trusted area; NaN without potentials or rest
