@@ -31,5 +31,6 @@ void start_again_without_spinning(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   start_again_without_spinning(argc, argv);
+  espdiff::keep_large_arrays_apart();
   return espdiff::cli::run_command_line(argc, argv);
 }

@@ -62,4 +62,12 @@ void return_free_memory() {
 #endif
 }
 
+void keep_large_arrays_apart() {
+#if defined(__GLIBC__)
+  constexpr int kLarge = 1 << 20, kMostKept = 1 << 22;  // in bytes
+  if (std::getenv("MALLOC_MMAP_THRESHOLD_") == nullptr) ::mallopt(M_MMAP_THRESHOLD, kLarge);
+  if (std::getenv("MALLOC_TRIM_THRESHOLD_") == nullptr) ::mallopt(M_TRIM_THRESHOLD, kMostKept);
+#endif
+}
+
 }  // namespace espdiff

@@ -27,5 +27,9 @@ std::uint64_t memory_page_size();
 std::uint64_t allocated_bytes();
 /// Gives free memory that the allocator keeps back to the system, where the C library can.
 void return_free_memory();
+/// Large arrays get pages of their own from now on, which go back to the system when they are freed. Otherwise glibc
+/// raises the size from which it does so whenever a large array is freed, and later ones leave gaps in its heap. For a
+/// program, not a library: it is the whole process' setting. What the user set by MALLOC_... stays.
+void keep_large_arrays_apart();
 
 }  // namespace espdiff

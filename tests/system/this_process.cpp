@@ -8,8 +8,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "support/test_data.h"
 #include "system/child_process.h"
@@ -29,6 +31,13 @@ ChildState state_at_end(int process, int& status) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   return ChildState::kRunning;
+}
+
+std::uint64_t resident_bytes() {
+  std::ifstream pages("/proc/self/statm");
+  std::uint64_t all = 0, resident = 0;
+  pages >> all >> resident;
+  return resident * memory_page_size();
 }
 
 }  // namespace
@@ -57,6 +66,21 @@ TEST_CASE("child_process: a detached program writes its log, and its end is told
   CHECK(first + " " + second == "out err");
   CHECK(start_detached({"no-such-program-1"}, folder.file("log"), process) == ENOENT);
 }
+
+#if defined(__GLIBC__)
+TEST_CASE("this_process: large arrays go back to the system when they are freed, in any order") {
+  keep_large_arrays_apart();
+  const std::uint64_t before = resident_bytes();
+  constexpr std::size_t kLarge = 8 << 20;
+  for (int i = 0; i < 4; ++i) {
+    auto first = std::make_unique<std::vector<char>>(kLarge, 'a');
+    const std::vector<char> small(100000, 'b');
+    CHECK(resident_bytes() > before + kLarge / 2);
+    first.reset();
+    CHECK(resident_bytes() < before + kLarge / 2);
+  }
+}
+#endif
 
 TEST_CASE("permissions: a private folder is this user's, a link to it is not") {
   const ScratchFolder folder;

@@ -6,20 +6,23 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// x += alpha p, r -= alpha A p, which is in work.z. @returns r . r
-using Advance = std::function<double(float alpha)>;
+/// How a direction p becomes A p, in work.z, and what is done with it.
+struct Advance {
+  Products products;
+  std::function<double(float alpha)> by;  ///< x += alpha p, r -= alpha A p. @returns r . r
+};
 
 /// Conjugate gradients from the residual in work.r until the recursion's residual is below the tolerance. @returns it
 double iterate(Multigrid& preconditioner, const SolverOptions& options, SolverReport& report, SolverWork& work,
-               const Advance& advance_by, const std::function<void(double)>& step) {
+               const Advance& advance_x, const std::function<void(double)>& step) {
   double rz_before = 0, residual = report.relative_residual;
   while (residual > options.tolerance && report.cycles < options.max_cycles) {
     const double rz = preconditioner.precondition(work.r, work.z);
-    const double curvature =
-        preconditioner.turn_and_apply(rz_before == 0 ? 0.0F : static_cast<float>(rz / rz_before), work.z, work.p);
+    const float beta = rz_before == 0 ? 0.0F : static_cast<float>(rz / rz_before);
+    const double curvature = preconditioner.turn_and_apply(beta, work.z, work.p, advance_x.products);
     rz_before = rz;
     if (!(curvature > 0) || !(rz > 0)) break;  // the direction is rounding noise
-    residual = std::sqrt(advance_by(static_cast<float>(rz / curvature))) / options.norm;
+    residual = std::sqrt(advance_x.by(static_cast<float>(rz / curvature))) / options.norm;
     ++report.cycles;
     step(residual);
   }
@@ -53,9 +56,8 @@ SolverReport conjugate_gradients(const GridOperator& a, Multigrid& preconditione
     if (restart == 1) low.assign(x.size(), 0.0F);
     if (restart > 1) add_parts(x, low);
     Buffer<float>& part = restart == 0 ? x : low;
-    iterate(
-        preconditioner, options, report, work,
-        [&](float alpha) { return advance(alpha, work.p, work.z, part, work.r); }, step);
+    iterate(preconditioner, options, report, work,
+            {Products::kRounded, [&](float alpha) { return advance(alpha, work.p, work.z, part, work.r); }}, step);
   }
   if (!low.empty()) add_parts(x, low);
   return report;
@@ -65,11 +67,12 @@ SolverReport conjugate_gradients(Multigrid& preconditioner, const SolverOptions&
                                  const TakeDirection& take, const std::function<void(double)>& step) {
   SolverReport report;
   report.start_residual = report.relative_residual = std::sqrt(dot_product(work.r, work.r)) / options.norm;
-  const Advance advance_by = [&](float alpha) {
+  const auto take_and_subtract = [&](float alpha) {
     take(static_cast<double>(alpha), work.p);
     return subtract_scaled(alpha, work.z, work.r);
   };
-  report.relative_residual = iterate(preconditioner, options, report, work, advance_by, step);
+  report.relative_residual =
+      iterate(preconditioner, options, report, work, {Products::kExact, take_and_subtract}, step);
   report.converged = report.relative_residual <= options.tolerance;
   return report;
 }

@@ -17,11 +17,16 @@ struct OperatorView {
   const float* diagonal;
   std::size_t row, plane;
 
+  template <typename Sum>
+  static ESPDIFF_INLINE Sum product(float a, float b) {
+    return static_cast<Sum>(a) * static_cast<Sum>(b);
+  }
   /// sum of eps_f x_q over the six neighbours.
-  ESPDIFF_INLINE float neighbours(const float* x, std::size_t p) const {
-    const float along_x = ex[p] * x[p + 1] + ex[p - 1] * x[p - 1];
-    const float along_y = ey[p] * x[p + row] + ey[p - row] * x[p - row];
-    const float along_z = ez[p] * x[p + plane] + ez[p - plane] * x[p - plane];
+  template <typename Sum = float>
+  ESPDIFF_INLINE Sum neighbours(const float* x, std::size_t p) const {
+    const Sum along_x = product<Sum>(ex[p], x[p + 1]) + product<Sum>(ex[p - 1], x[p - 1]);
+    const Sum along_y = product<Sum>(ey[p], x[p + row]) + product<Sum>(ey[p - row], x[p - row]);
+    const Sum along_z = product<Sum>(ez[p], x[p + plane]) + product<Sum>(ez[p - plane], x[p - plane]);
     return along_x + along_y + along_z;
   }
 };
@@ -43,6 +48,7 @@ struct AddFaces {
 };
 ESPDIFF_GRID_KERNEL(AddFaces)
 
+template <typename Sum>
 struct Apply {
   static constexpr bool kColoured = false;
   int colour;
@@ -50,9 +56,12 @@ struct Apply {
   const float* x;
   float* y;
 
-  ESPDIFF_INLINE void at(std::size_t p, int) const { y[p] = a.diagonal[p] * x[p] - a.neighbours(x, p); }
+  ESPDIFF_INLINE void at(std::size_t p, int) const {
+    y[p] = static_cast<float>(a.product<Sum>(a.diagonal[p], x[p]) - a.neighbours<Sum>(x, p));
+  }
 };
-ESPDIFF_GRID_KERNEL(Apply)
+ESPDIFF_GRID_KERNEL(Apply<float>)
+ESPDIFF_GRID_KERNEL(Apply<double>)
 
 /// The residual after a red and a black half sweep from zero: black points have none.
 struct RedResidual {
@@ -157,8 +166,11 @@ double dot_product(const Buffer<float>& a, const Buffer<float>& b) {
 }
 
 void add_faces_to_diagonal(GridOperator& a) { run_on_grid(a.size, AddFaces{0, view_of(a), raw(a.diagonal)}); }
-void apply_operator(const GridOperator& a, const Buffer<float>& x, Buffer<float>& y) {
-  run_on_grid(a.size, Apply{0, view_of(a), raw(x), raw(y)});
+void apply_operator(const GridOperator& a, const Buffer<float>& x, Buffer<float>& y, Products products) {
+  if (products == Products::kExact)
+    run_on_grid(a.size, Apply<double>{0, view_of(a), raw(x), raw(y)});
+  else
+    run_on_grid(a.size, Apply<float>{0, view_of(a), raw(x), raw(y)});
 }
 void subtract_exactly(const GridOperator& a, const Buffer<float>& x, const Buffer<float>& low, Buffer<float>& r) {
 #if !defined(ESPDIFF_BACKEND_CUDA)
@@ -265,11 +277,11 @@ double Multigrid::precondition(const Buffer<float>& r, Buffer<float>& z) {
   return dot_product(r, z);
 }
 
-double Multigrid::turn_and_apply(float beta, Buffer<float>& z, Buffer<float>& p) {
+double Multigrid::turn_and_apply(float beta, Buffer<float>& z, Buffer<float>& p, Products products) {
   const float* const from = raw(z);
   float* const to = raw(p);
   for_each_index(p.size(), [=] ESPDIFF_HD(std::size_t i) { to[i] = from[i] + beta * to[i]; });
-  apply_operator(finest_, p, z);
+  apply_operator(finest_, p, z, products);
   return dot_product(p, z);
 }
 
@@ -307,8 +319,8 @@ double Multigrid::cycle_by_planes(std::size_t depth, const GridOperator& a, cons
   return sweeps_->correct_and_smooth(a, b, next.on_grid.size, next.x, x);
 }
 
-double Multigrid::turn_and_apply(float beta, Buffer<float>& z, Buffer<float>& p) {
-  return sweeps_->turn_and_apply(finest_, beta, z, p);
+double Multigrid::turn_and_apply(float beta, Buffer<float>& z, Buffer<float>& p, Products products) {
+  return sweeps_->turn_and_apply(finest_, beta, products, z, p);
 }
 
 double advance(float alpha, const Buffer<float>& p, const Buffer<float>& q, Buffer<float>& x, Buffer<float>& r) {

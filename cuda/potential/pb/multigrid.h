@@ -21,6 +21,10 @@ namespace espdiff::ESPDIFF_BACKEND {
 
 class PackedOperator;
 
+/// How the terms of A x are added up before they are rounded to single precision: in single precision, or in double,
+/// where float products are exact. The terms are a hundred times as large as their sum where x is smooth.
+enum class Products { kRounded, kExact };
+
 /// The operator's coefficients on one grid.
 struct CoefficientBuffers {
   Buffer<float> ex, ey, ez;  ///< [point] dielectric of the face towards the next point along x, y, z
@@ -42,7 +46,8 @@ CoefficientBuffers hold_packed(GridOperator& on_grid, std::shared_ptr<const Pack
 /// Adds the six faces' dielectrics to the diagonal, which is k before.
 void add_faces_to_diagonal(GridOperator& on_grid);
 /// y = A x at inner points, from x with its border. The border of y is not changed.
-void apply_operator(const GridOperator& on_grid, const Buffer<float>& x, Buffer<float>& y);
+void apply_operator(const GridOperator& on_grid, const Buffer<float>& x, Buffer<float>& y,
+                    Products products = Products::kRounded);
 /// r -= A (x + low) at inner points, summed in double precision.
 /// @param low no elements for zero
 void subtract_exactly(const GridOperator& on_grid, const Buffer<float>& x, const Buffer<float>& low, Buffer<float>& r);
@@ -84,7 +89,7 @@ class Multigrid {
   /// The same z, each step by itself (device).
   void precondition_by_points(const Buffer<float>& r, Buffer<float>& z);
   /// p = z + beta p, then z = A p. @returns p . A p
-  double turn_and_apply(float beta, Buffer<float>& z, Buffer<float>& p);
+  double turn_and_apply(float beta, Buffer<float>& z, Buffer<float>& p, Products products = Products::kRounded);
   int n_levels() const { return static_cast<int>(levels_.size()) + 1; }
   /// Bytes for each point of the finest grid, at most: a residual there (on a device alone), and the coarse grids.
   static constexpr double kBytesPerPoint = 4 + 7.0 * 4.0 / 7.0;

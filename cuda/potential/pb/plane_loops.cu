@@ -5,6 +5,7 @@ namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
 /// sum of eps_f x_q over the six neighbours of a row's points, for loops that the compiler vectorizes.
+template <typename Sum>
 struct RowNeighbours {
   const float *ex, *ey, *ey_before, *ez, *ez_below, *below, *here, *above;
   std::size_t row;
@@ -19,10 +20,11 @@ struct RowNeighbours {
         here(x.here),
         above(x.above),
         row(of_row) {}
-  ESPDIFF_INLINE float operator()(std::size_t i) const {
-    const float along_x = ex[i] * here[i + 1] + ex[i - 1] * here[i - 1];
-    const float along_y = ey[i] * here[i + row] + ey_before[i] * *(here + i - row);
-    const float along_z = ez[i] * above[i] + ez_below[i] * below[i];
+  static ESPDIFF_INLINE Sum product(float a, float b) { return static_cast<Sum>(a) * static_cast<Sum>(b); }
+  ESPDIFF_INLINE Sum operator()(std::size_t i) const {
+    const Sum along_x = product(ex[i], here[i + 1]) + product(ex[i - 1], here[i - 1]);
+    const Sum along_y = product(ey[i], here[i + row]) + product(ey_before[i], *(here + i - row));
+    const Sum along_z = product(ez[i], above[i]) + product(ez_below[i], below[i]);
     return along_x + along_y + along_z;
   }
 };
@@ -35,7 +37,7 @@ ESPDIFF_MULTIVERSION void start_row(const float* diagonal, std::size_t nx, int p
 
 ESPDIFF_MULTIVERSION void sweep_row(const OperatorRow& a, std::size_t nx, int parity, int colour, const float* b,
                                     const Planes& x, float* out) {
-  const RowNeighbours neighbours(a, x, nx);
+  const RowNeighbours<float> neighbours(a, x, nx);
   const float* const diagonal = a.diagonal;
   const float* const here = x.here;
 #pragma GCC ivdep
@@ -46,17 +48,25 @@ ESPDIFF_MULTIVERSION void sweep_row(const OperatorRow& a, std::size_t nx, int pa
 }
 
 ESPDIFF_MULTIVERSION void residual_row(const OperatorRow& a, std::size_t nx, int parity, const Planes& x, float* r) {
-  const RowNeighbours neighbours(a, x, nx);
+  const RowNeighbours<float> neighbours(a, x, nx);
 #pragma GCC ivdep
   for (std::size_t i = 1; i < nx - 1; ++i) r[i] = ((static_cast<int>(i) + parity) & 1) == 0 ? neighbours(i) : 0.0F;
 }
 
-ESPDIFF_MULTIVERSION void apply_row(const OperatorRow& a, std::size_t nx, const Planes& x, float* y) {
-  const RowNeighbours neighbours(a, x, nx);
+template <typename Sum>
+ESPDIFF_INLINE void multiply_row(const OperatorRow& a, std::size_t nx, const Planes& x, float* y) {
+  const RowNeighbours<Sum> neighbours(a, x, nx);
   const float* const diagonal = a.diagonal;
   const float* const here = x.here;
 #pragma GCC ivdep
-  for (std::size_t i = 1; i < nx - 1; ++i) y[i] = diagonal[i] * here[i] - neighbours(i);
+  for (std::size_t i = 1; i < nx - 1; ++i)
+    y[i] = static_cast<float>(neighbours.product(diagonal[i], here[i]) - neighbours(i));
+}
+ESPDIFF_MULTIVERSION void apply_row(const OperatorRow& a, std::size_t nx, const Planes& x, float* y) {
+  multiply_row<float>(a, nx, x, y);
+}
+ESPDIFF_MULTIVERSION void apply_row_exactly(const OperatorRow& a, std::size_t nx, const Planes& x, float* y) {
+  multiply_row<double>(a, nx, x, y);
 }
 
 /// The terms of A x in double precision, for x in one or two parts.
@@ -113,9 +123,12 @@ void residual_plane(OperatorRows& a, const GridSize& size, int k, const Planes& 
     residual_row(row, size.row(), parity, x.row(first), r + first);
   });
 }
-void apply_plane(OperatorRows& a, const GridSize& size, int k, const Planes& x, float* y) {
+void apply_plane(OperatorRows& a, const GridSize& size, int k, Products products, const Planes& x, float* y) {
   for_rows(a, size, k, [&](const OperatorRow& row, std::size_t first, int) {
-    apply_row(row, size.row(), x.row(first), y + first);
+    if (products == Products::kExact)
+      apply_row_exactly(row, size.row(), x.row(first), y + first);
+    else
+      apply_row(row, size.row(), x.row(first), y + first);
   });
 }
 

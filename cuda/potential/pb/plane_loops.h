@@ -26,7 +26,7 @@ void sweep_plane(OperatorRows& a, const GridSize& size, int k, int colour, const
 /// The residual after a red and a black half sweep from zero: that of black points is zero.
 void residual_plane(OperatorRows& a, const GridSize& size, int k, const Planes& x, float* r);
 /// y = A x.
-void apply_plane(OperatorRows& a, const GridSize& size, int k, const Planes& x, float* y);
+void apply_plane(OperatorRows& a, const GridSize& size, int k, Products products, const Planes& x, float* y);
 /// r -= A (x + low), summed in double precision: float products are exact there. @param low null for zero
 void subtract_exactly_plane(OperatorRows& a, const GridSize& size, int k, const float* x, const float* low, float* r);
 

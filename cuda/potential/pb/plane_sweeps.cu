@@ -148,7 +148,8 @@ double PlaneSweeps::correct_and_smooth(const GridOperator& a, const Buffer<float
   return total_of(products);
 }
 
-double PlaneSweeps::turn_and_apply(const GridOperator& a, float beta, Buffer<float>& z, Buffer<float>& p) {
+double PlaneSweeps::turn_and_apply(const GridOperator& a, float beta, Products form, Buffer<float>& z,
+                                   Buffer<float>& p) {
   const GridSize size = a.size;
   const std::size_t plane = size.plane();
   const int n = std::min(n_ranges(size), static_cast<int>(own_.size()));
@@ -175,7 +176,7 @@ double PlaneSweeps::turn_and_apply(const GridOperator& a, float beta, Buffer<flo
       if (k < part.last) turn_plane(beta, image + at(k), along + at(k), plane, along + at(k));
       const int done = k - 1;
       if (done < part.first) continue;
-      apply_plane(rows, size, done, {p_of(done - 1), p_of(done), p_of(done + 1)}, image + at(done));
+      apply_plane(rows, size, done, form, {p_of(done - 1), p_of(done), p_of(done + 1)}, image + at(done));
       products[static_cast<std::size_t>(done)] = dot_run(along + at(done), image + at(done), plane);
     }
   });

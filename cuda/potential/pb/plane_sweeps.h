@@ -26,7 +26,7 @@ class PlaneSweeps {
   double correct_and_smooth(const GridOperator& a, const Buffer<float>& b, const GridSize& coarse,
                             const Buffer<float>& correction, Buffer<float>& x);
   /// p = z + beta p, then z = A p. @returns p . A p
-  double turn_and_apply(const GridOperator& a, float beta, Buffer<float>& z, Buffer<float>& p);
+  double turn_and_apply(const GridOperator& a, float beta, Products products, Buffer<float>& z, Buffer<float>& p);
 
  private:
   /// Planes of one thread.
