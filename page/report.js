@@ -58,11 +58,11 @@
     mesh.why.value = quantity.name === 'why' ? 1 : 0;  // the shader has the colours then
     for (let v = 0; v < n && !mesh.why.value; ++v) {
       const rgb = colourOf(quantity, column[v], range, scale);
-      const s = doubt && column !== doubt && doubt[v] >= 0 && byId('fade').checked ? Math.max(0, Math.min(1, (doubt[v] - fade.from) / (fade.to - fade.from))) * 0.75 : 0;
-      for (let k = 0; k < 3; ++k) colours[3 * v + k] = ((1 - s) * rgb[k] + s * 190) / 255;
+      for (let k = 0; k < 3; ++k) colours[3 * v + k] = rgb[k] / 255;
     }
     mesh.geometry.attributes.color.needsUpdate = true;
     mesh.marks.value = compares(quantity) ? 1 : 0;
+    mesh.fades.value = doubt && column !== doubt && byId('fade').checked ? 1 : 0;
   }
 
   // ---- scene ----------------------------------------------------------------------------------------------------
@@ -89,6 +89,10 @@
     return shares;
   });
 
+  // [vertex] how faint its values are drawn, 0 to 1; of a limit (from = to) the share around it that is beyond.
+  const faint = !doubt ? new Float32Array(n) : fade.from === fade.to ? shareAround((v) => doubt[v] > fade.from)
+    : Float32Array.from(doubt, (value) => (value >= 0 ? Math.max(0, Math.min(1, (value - fade.from) / (fade.to - fade.from))) : 0));
+
   // As the shaders of pictures: grey where the place is not trusted, stripes where it is unmatched, open inside tears.
   function marked(material, mesh) {
     const glsl = (rgb) => 'vec3(' + rgb.map((c) => (c / 255).toFixed(4)).join(', ') + ')', grey = glsl(record.no_value);
@@ -100,13 +104,16 @@
     material.onBeforeCompile = (shader) => {
       shader.uniforms.marks = mesh.marks;
       shader.uniforms.why = mesh.why;
+      shader.uniforms.fades = mesh.fades;
       shader.uniforms.pitch = { value: 7 * renderer.getPixelRatio() };
-      shader.vertexShader = after(after(shader.vertexShader, 'common', 'attribute vec2 cover; attribute vec4 reasonsA, reasonsB; varying vec2 vCover; varying vec4 vReasonsA, vReasonsB;'), 'begin_vertex', 'vCover = cover; vReasonsA = reasonsA; vReasonsB = reasonsB;');
-      shader.fragmentShader = after(after(shader.fragmentShader, 'common', 'varying vec2 vCover; varying vec4 vReasonsA, vReasonsB; uniform float marks, why, pitch;'), 'color_fragment', `
+      shader.vertexShader = after(after(shader.vertexShader, 'common', 'attribute vec2 cover; attribute float faint; attribute vec4 reasonsA, reasonsB; varying vec2 vCover; varying float vFaint; varying vec4 vReasonsA, vReasonsB;'), 'begin_vertex', 'vCover = cover; vFaint = faint; vReasonsA = reasonsA; vReasonsB = reasonsB;');
+      shader.fragmentShader = after(after(shader.fragmentShader, 'common', 'varying vec2 vCover; varying float vFaint; varying vec4 vReasonsA, vReasonsB; uniform float marks, why, fades, pitch;'), 'color_fragment', `
         if (vCover.x < -0.4) discard;
         vec2 inside = clamp((vCover - 0.5) / max(fwidth(vCover), 1e-6) + 0.5, 0.0, 1.0);
         vec3 stripes = mod(gl_FragCoord.x - gl_FragCoord.y, pitch) < 0.4 * pitch ? ${grey} : vec3(0.93);
         ${ofReason}
+        float faint = ${fade && fade.from === fade.to ? 'clamp((vFaint - 0.5) / max(fwidth(vFaint), 1e-6) + 0.5, 0.0, 1.0)' : 'vFaint'};
+        diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.745), 0.75 * faint * fades * (1.0 - why));
         ${reasons.length ? 'if (why > 0.5) diffuseColor.rgb = reason;' : ''}
         diffuseColor.rgb = mix(diffuseColor.rgb, ${grey}, (1.0 - inside.y) * marks);
         diffuseColor.rgb = mix(stripes, diffuseColor.rgb, inside.x);`);
@@ -120,13 +127,15 @@
     mesh.geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * n), 3));
     mesh.geometry.setAttribute('color', new THREE.BufferAttribute(mesh.colours, 3));
     mesh.geometry.setAttribute('cover', new THREE.BufferAttribute(cover, 2));
+    mesh.geometry.setAttribute('faint', new THREE.BufferAttribute(faint, 1));
     ['reasonsA', 'reasonsB'].forEach((name, half) => mesh.geometry.setAttribute(name, new THREE.BufferAttribute(reasonShares[half], 4)));
     mesh.geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
     mesh.geometry.computeVertexNormals();
     mesh.marks = { value: 1 };
     mesh.why = { value: 0 };
+    mesh.fades = { value: 0 };
     const side = THREE.DoubleSide, vertexColors = THREE.VertexColors || true;
-    mesh.surface = new THREE.Mesh(mesh.geometry, marked(new THREE.MeshLambertMaterial({ vertexColors, side }), mesh));
+    mesh.surface = new THREE.Mesh(mesh.geometry, marked(new THREE.MeshLambertMaterial({ vertexColors, side, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }), mesh));  // outlines lie on it
     mesh.scene.add(mesh.surface);
     mesh.outline = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0x000000 }));
     mesh.scene.add(mesh.outline);
@@ -137,7 +146,7 @@
     if (record.backbone) {
       mesh.ribbon = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshLambertMaterial({ color: 0xc98a1b, side }));
       // Only the nearest layer of the surface shows: its depth is drawn first, after the ribbon.
-      mesh.depth = new THREE.Mesh(mesh.geometry, marked(new THREE.MeshBasicMaterial({ colorWrite: false, side, transparent: true }), mesh));
+      mesh.depth = new THREE.Mesh(mesh.geometry, marked(new THREE.MeshBasicMaterial({ colorWrite: false, side, transparent: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }), mesh));
       mesh.depth.renderOrder = 1;
       mesh.surface.renderOrder = 2;
       mesh.scene.add(mesh.ribbon, mesh.depth);
@@ -167,15 +176,42 @@
     if (isShown) mesh.ribbon.geometry = Page.ribbon(mesh.morph);
   }
 
+  // [vertex] share of its surroundings that is inside, averaged over neighbours twice, so that borders do not follow edges.
+  function shareAround(isInside) {
+    let share = Float32Array.from({ length: n }, (_, v) => (isInside(v) ? 1 : 0));
+    for (let round = 0; round < 2; ++round) {
+      const sum = new Float32Array(n), count = new Float32Array(n);
+      for (let i = 0; i < triangles.length; ++i) {
+        const v = triangles[i], next = triangles[i % 3 === 2 ? i - 2 : i + 1];  // each edge, from one of its ends a triangle
+        sum[v] += share[next]; ++count[v];
+      }
+      share = share.map((own, v) => (count[v] ? (own + sum[v] / count[v]) / 2 : own));
+    }
+    return share;
+  }
+
   let picked = -1, pickedPatch = -1;
+  const shownShares = [0, 1].map(() => ({ of: -1, share: null }));  // of the picked residue and patch
+  function sharesOfPicked() {
+    return [[picked, (v) => residueOf[v] === picked], [patchOf ? pickedPatch : -1, (v) => patchOf[v] === pickedPatch + 1]].map(([of, isInside], k) => {
+      const shown = shownShares[k];
+      if (shown.of !== of) Object.assign(shown, { of, share: of >= 0 ? shareAround(isInside) : null });
+      return shown.share;
+    }).filter((share) => share);
+  }
+
+  // Lines where half of the surroundings are inside; a part of few vertices has less.
   function outline(mesh) {
     const lines = [], at = mesh.geometry.attributes.position.array;
-    const push = (a, b) => lines.push(at[3 * a], at[3 * a + 1], at[3 * a + 2], at[3 * b], at[3 * b + 1], at[3 * b + 2]);
-    const isPicked = (v) => residueOf[v] === picked, isInPatch = (v) => patchOf[v] === pickedPatch + 1;
-    for (const isInside of [picked >= 0 && isPicked, patchOf && pickedPatch >= 0 && isInPatch]) {
-      for (let t = 0; isInside && t < triangles.length; t += 3) {
-        const own = [triangles[t], triangles[t + 1], triangles[t + 2]].filter(isInside);
-        if (own.length === 2) push(own[0], own[1]);
+    for (const share of sharesOfPicked()) {
+      const level = Math.min(0.5, 0.8 * share.reduce((a, b) => Math.max(a, b), 0));
+      for (let t = 0; t < triangles.length; t += 3) {
+        for (let k = 0; k < 3; ++k) {
+          const a = triangles[t + k], b = triangles[t + (k + 1) % 3];
+          if (share[a] < level === share[b] < level) continue;
+          const w = (level - share[a]) / (share[b] - share[a]);
+          for (let c = 0; c < 3; ++c) lines.push(at[3 * a + c] + w * (at[3 * b + c] - at[3 * a + c]));
+        }
       }
     }
     mesh.outline.geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(lines), 3));

@@ -191,7 +191,6 @@ namespace eval ::espdiff {
             {-mol molecule {} "Molecule of VMD whose frames are compared"}
             {-file file {} "Instead of -mol: structure file whose models are the frames, the first one is frame 0"}
             {-sel text "not water" "Atoms of the molecule; chosen once, in the reference frame"}
-            {-frames text all "all, now, a frame, begin:end or begin:step:end, such as 0:10:end; see Frames"}
             {-reference text {frame 0} "What each frame is compared with: {frame N}, previous (the frame before it in\
                 the run), an endpoint, or an endpoint with `frame same`: frame i with frame i of another trajectory,\
                 such as {mol 1 frame same}"}
@@ -201,18 +200,9 @@ namespace eval ::espdiff {
                 computed as the frames' are"}
             {-unit text {} "Unit of the maps if they do not say: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"}
             {-whole boolean 0 "Make molecules whole that their periodic cell cuts; otherwise they are refused"}
-            {-start choice auto "Begin each frame's mapping at the source, or at the previous frame's where that is\
-                nearer: small steps; auto: source by -method morph, previous by deform; see Trajectories"\
-                {auto previous source}}
             {-csv file required "File that gets one row for each frame"}
-            {-residues file {} "CSV file that gets one value of each residue of the source for each frame, a row a frame"}
-            {-residue-quantity text {} "Column of the residue table for -residues; mean_abs_difference, or without\
-                potentials mean_displacement_A"}
-            {-resume boolean 0 "Continue where an interrupted run left the file"}
-            {-overwrite boolean 0 "Replace the file if it exists"}
-            {-on-error choice stop "skip writes a row with the error in its column `error`, and continues" {stop skip}}
             {-callback command {} "Called as CMD frame row after each row, a dictionary by column; `break` cancels"}
-        } $computing] \
+        } [study_options trajectory] $computing] \
         summary {Compares each frame with the reference, or with the frame before, and writes a row for each as it is
             done. The reference's surface is computed once. An interrupted run can be resumed.} \
         returns {a dictionary: frames rows skipped resumed csv seconds; with -command a handle, such as trajectory1} \

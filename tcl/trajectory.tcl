@@ -159,23 +159,19 @@ namespace eval ::espdiff {
     # The run as the core takes it. What names a file is its full name: in the background the working folder may change.
     proc trajectory_plan {run_name options} {
         upvar 1 $run_name run
-        set plan [dict create csv [file normalize [dict get $options csv]] frames $run(frames) on_error $run(on_error) \
+        # The table of residues need not exist yet.
+        set plan [study_values trajectory [dict merge $options {residues ""}]]
+        if {[dict get $options residues] ne ""} { dict set plan residues [file normalize [dict get $options residues]] }
+        set plan [dict merge $plan [dict create csv [file normalize [dict get $options csv]] numbers $run(frames) \
             reference $run(reference) map [map_in_words $run(map) $run(unit)] \
-            one_map [is_one_map $run(map) $run(mol)]]
+            one_map [is_one_map $run(map) $run(mol)]]]
         if {$run(reference_map) ne $run(map)} {
             dict set plan reference_map [map_in_words $run(reference_map) $run(unit)]
         }
-        foreach key {resume overwrite start} { dict set plan $key [dict get $options $key] }
         dict set plan against $run(against)
         if {$run(against) eq "same"} {
             set path [dict get $run(sources) path]
             if {$path ne ""} { dict set plan source_file $path }
-        }
-        if {[dict get $options residues] ne ""} {
-            dict set plan residues [file normalize [dict get $options residues]]
-            dict set plan residue_quantity [dict get $options residue-quantity]
-        } elseif {[dict get $options residue-quantity] ne ""} {
-            fail "-residue-quantity needs [spelled residues]"
         }
         if {[lindex $run(reference) 0] eq "frame"} { dict set plan row_reference [lindex $run(reference) 1] }
         if {$run(against) ne "previous"} { dict set plan region [dict exists $run(reference) region] }

@@ -28,6 +28,7 @@
 #include "python/src/states/state.h"
 #include "report/records/metrics.h"
 #include "study/matrix_settings.h"
+#include "trajectory/trajectory_settings.h"
 #ifdef ESPDIFF_HAVE_HDF5
 #include "ensemble/ensemble_settings.h"
 #endif
@@ -78,9 +79,10 @@ nb::list list_rows(const std::vector<espdiff::OptionRow<Study>>& rows) {
   return all;
 }
 
-/// Those of matrix() or ensemble() besides the comparison's; none of ensembles without HDF5.
+/// Those of matrix(), a trajectory or ensemble() besides the comparison's; none of ensembles without HDF5.
 nb::list list_study_settings(const std::string& study) {
   if (study == "matrix") return list_rows(espdiff::matrix_settings());
+  if (study == "trajectory") return list_rows(espdiff::trajectory_settings());
 #ifdef ESPDIFF_HAVE_HDF5
   if (study == "ensemble") return list_rows(espdiff::ensemble_settings());
 #endif

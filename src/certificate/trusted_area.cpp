@@ -73,7 +73,7 @@ const char* key_of(Why why) {
 }
 
 std::vector<std::uint8_t> why_of_mapping(const MappedSurface& s, const std::vector<std::int32_t>& target_of,
-                                         bool leaves_out_turned) {
+                                         KeptTurns kept) {
   const bool judges_residues = std::any_of(target_of.begin(), target_of.end(), [](std::int32_t r) { return r >= 0; });
   std::vector<std::uint8_t> own;
   if (judges_residues) own = on_own_residue(s, target_of);
@@ -81,8 +81,11 @@ std::vector<std::uint8_t> why_of_mapping(const MappedSurface& s, const std::vect
   const auto has_no_partner = [&](std::uint32_t c) {
     return s.residue[c] < 0 || target_of[static_cast<std::size_t>(s.residue[c])] < 0;
   };
-  const auto least = static_cast<std::uint8_t>(leaves_out_turned ? Turn::kSideChain : Turn::kResidue);
-  const auto turned_away = [&](std::uint32_t c) { return !s.turned.empty() && s.turned[c] >= least; };
+  const auto turned_away = [&](std::uint32_t c) {
+    const auto turn = s.turned.empty() ? Turn::kNone : static_cast<Turn>(s.turned[c]);
+    return turn == Turn::kResidue || (turn == Turn::kSideChain && kept == KeptTurns::kNone) ||
+           (turn == Turn::kFarSideChain && kept != KeptTurns::kAll);
+  };
   std::vector<std::uint8_t> why;
   why.reserve(s.triangles.size());
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {

@@ -53,22 +53,27 @@ struct TrustedArea {
   double share() const { return source < target || source != source ? source : target; }
 };
 
-/// Trusted area on side chains that turned about their bonds, farther than kLargeSlip_A from where they carried it
-/// (turned_side_chains.h). There the mapping finds the residue, but another of its faces, so that a potential is
-/// compared with that beside it.
+/// Trusted area on side chains that turned about their bonds, farther than kLargeSlip_A from where they carried it, and
+/// within kFarTurn_A unless kAll are kept (turned_side_chains.h). There the mapping finds the residue, but another of its
+/// faces, so that a potential is compared with that beside it.
 struct TurnedArea {
   double of_trusted = kNaN;                ///< its share of the trusted area of the source; NaN without any
   double mean_abs_difference = kNaN;       ///< over the rest of the trusted area; NaN without potentials or rest
   std::vector<std::string> side_chains{};  ///< "LYS 118 of chain A", that with the largest such area first
 };
 
+/// Which points on side chains that turned count as trusted. Those on residues that turned as a whole never do.
+enum class KeptTurns : std::uint8_t {
+  kAll,   ///< through a template, where the side chains of a simulation turn in every frame
+  kNear,  ///< within kFarTurn_A of where the side chain carried them
+  kNone
+};
+
 /// [triangle] Why, as far as the mapping shows it: all but kDisagrees and kNoPotential.
 /// @param surface   with slip, turned (either may be empty) and residues
 /// @param target_of [source residue] from paired_residues(); where no residue pairs, residues are not judged
-/// @param leaves_out_turned whether side chains that turned are not trusted either, besides residues that turned as a
-/// whole
 std::vector<std::uint8_t> why_of_mapping(const MappedSurface& surface, const std::vector<std::int32_t>& target_of,
-                                         bool leaves_out_turned = false);
+                                         KeptTurns kept = KeptTurns::kNear);
 
 /// Marks the triangles without a potential on either side.
 void mark_without_potential(MappedSurface& surface);

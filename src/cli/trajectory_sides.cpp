@@ -115,7 +115,7 @@ void TrajectorySides::open_targets(const Progress& progress) {
   } else if (reference_ == Reference::kSame) {
     second_.emplace(first_, StateRole::kTarget, a_.source, a_.targets);
   }
-  if (reference_ != Reference::kSame || a_.frames != "all" || first_.n_frames() == second_->n_frames()) return;
+  if (reference_ != Reference::kSame || a_.request.frames != "all" || first_.n_frames() == second_->n_frames()) return;
   throw InputError("the trajectories have " + std::to_string(first_.n_frames()) + " and " +
                    std::to_string(second_->n_frames()) +
                    " frames; choose those of both: " + option("frames", "0:" + std::to_string(frames().n_frames - 1)));

@@ -13,16 +13,17 @@
 #include "frames/frame_range.h"
 #include "study/series_source.h"
 #include "trajectory/trajectory.h"
+#include "trajectory/trajectory_settings.h"
 
 namespace espdiff::cli {
 
 /// What `espdiff trajectory` was called with.
 struct TrajectoryArguments {
-  std::string source, output, picture, plugins, frames_of, residues, residue_quantity;
-  std::string frames = "all", start = "auto", on_error = "stop", reference = "source";
+  std::string source, output, picture, plugins, frames_of, reference = "source";
   std::vector<std::string> targets, source_frames;
   int source_model = 1;
-  bool resume = false, overwrite = false, quiet = false;
+  bool quiet = false;
+  TrajectoryRequest request;
   MapArguments maps;
   StructureOptions structure;
   DeviceArguments device;

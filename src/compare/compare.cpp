@@ -382,7 +382,8 @@ struct Series::Steps {
       step.mapping = deform(target_surface, begin, frame, step.result, progress, clock);
     }
     check(step.mapping, target_surface, step.result, progress);
-    describe(engine, *source.molecule, *target.molecule, surface, target_surface, options.leave_out_turned, step);
+    describe(engine, *source.molecule, *target.molecule, surface, target_surface,
+             options.leave_out_turned ? KeptTurns::kNone : KeptTurns::kNear, step);
     clock.lap("certificate");
     return step;
   }

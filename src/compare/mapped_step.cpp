@@ -68,13 +68,15 @@ void mark_turned(Engine& engine, const Molecule& source, const Molecule& target,
   for (std::size_t v = 0; v < owner.size(); ++v) {
     if (owner[v] < 0) continue;
     const TurnedAtom& atom = atoms[static_cast<std::size_t>(owner[v])];
-    if (has_turned(atom) && norm(atom.carried.apply(s.source_positions[v]) - s.positions[v]) > kLargeSlip_A)
-      s.turned[v] = static_cast<std::uint8_t>(atom.turn);
+    if (!has_turned(atom)) continue;
+    const double off_A = norm(atom.carried.apply(s.source_positions[v]) - s.positions[v]);
+    const bool is_far = atom.turn == Turn::kSideChain && off_A > kFarTurn_A;
+    if (off_A > kLargeSlip_A) s.turned[v] = static_cast<std::uint8_t>(is_far ? Turn::kFarSideChain : atom.turn);
   }
 }
 
 void describe(Engine& engine, const Molecule& source, const Molecule& target, const Surface& source_surface,
-              const Surface& target_surface, bool leaves_out_turned, MappedStep& step) {
+              const Surface& target_surface, KeptTurns kept, MappedStep& step) {
   const Mapping& mapping = step.mapping;
   MappedSurface& s = step.result.surface;
   step.moved = step.frame.domains.carry(engine, mapping.source, source_surface.atoms);
@@ -92,7 +94,7 @@ void describe(Engine& engine, const Molecule& source, const Molecule& target, co
   const std::vector<std::int32_t> target_of = paired_residues(source, target, step.result.pairing);
   step.result.certificate.same_residue_area_fraction = same_residue_share(s, s.residue, s.target_residue, target_of);
   mark_turned(engine, source, target, step.result.pairing, source_surface, mapping.source, step.frame.from_source, s);
-  s.why = why_of_mapping(s, target_of, leaves_out_turned);
+  s.why = why_of_mapping(s, target_of, kept);
   step.result.residues = residue_rows(s, source.residues.size(), false);
 }
 

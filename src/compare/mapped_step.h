@@ -29,9 +29,9 @@ void set_unmatched_to_nan(const std::vector<bool>& is_matched, std::vector<float
 
 /// Downloads a certified mapping and finds its residues and its slip: fills in the result's surface without normals and
 /// potentials, the slip, the area on the same residue, where it is trusted, and the residues' rows without potentials.
-/// @param source_surface, target_surface in the common frame  @param leaves_out_turned of why_of_mapping()
+/// @param source_surface, target_surface in the common frame  @param kept of why_of_mapping()
 void describe(Engine& engine, const Molecule& source, const Molecule& target, const Surface& source_surface,
-              const Surface& target_surface, bool leaves_out_turned, MappedStep& step);
+              const Surface& target_surface, KeptTurns kept, MappedStep& step);
 
 /// Marks the vertices of what turned that lie off the place where it carried them: fills in the surface's `turned`.
 /// Nothing is asked of the device where nothing turned.

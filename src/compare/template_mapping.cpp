@@ -303,7 +303,7 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, const Progress& pr
   p.measure_slip(mapping, target, paths, result);
   mark_turned(p.engine, *p.source.molecule, *frame.molecule, result.pairing, p.surface, mapping.source,
               common.from_source, s);
-  s.why = why_of_mapping(s, target_of);
+  s.why = why_of_mapping(s, target_of, KeptTurns::kAll);
   result.certificate.trusted = sum_trusted(s, {}, result.certificate.unmatched_target);
   out.trusted = trusted_vertices(s);
   out.trusted.resize(p.n_vertices);  // those that the morph added come after them

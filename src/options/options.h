@@ -63,7 +63,7 @@ struct CompareOptions {
   std::vector<std::string> causes;         ///< readings whose causes are wanted; see causes/reading.h
   /// Share of the source's surface, and of the target's, that has to be trusted; below it a result is not trustworthy.
   double required_share = 0.5;
-  bool leave_out_turned = false;  ///< side chains that turned are not trusted where they lie off; see why_of_mapping()
+  bool leave_out_turned = false;  ///< KeptTurns::kNone instead of kNear
   bool scan = false;              ///< for each of them, how a change of each residue's charges would shift it
   int side_chains = 0;            ///< draws of other places of side chains, for each of them; 0 for none
   int side_chain_seed = 1;

@@ -281,8 +281,9 @@ std::vector<Setting> make_settings() {
       "TRUSTWORTHY. Use 0.95 for an answer of yes or no"));
   all.push_back(Rows::boolean(
       "leave-out-turned", "Verdict", [](auto& o) -> auto& { return o.leave_out_turned; },
-      "Do not trust side chains that turned about their bonds where the mapping puts a point farther than 3 A from "
-      "where its atoms went: there the residue is right, but not its face. Of NMR models half of the surface is left"));
+      "Do not trust side chains that turned about their bonds where the mapping puts a point farther than 3 A, instead "
+      "of 7 A, from where its atoms went: there the residue is right, but not its face. Of NMR models half of the "
+      "surface is left"));
   add_surface_settings(all);
   add_mapping_settings(all);
   const std::size_t first = all.size();

@@ -105,7 +105,7 @@ void add_surface(EnsembleJson& page, PageArrays& arrays, const EnsembleFiles& fi
   const double alpha = files.record.at("options").at("alpha").get<double>();
   page["fade"] = {{"name", "p_family_wise"},
                   {"from", alpha},
-                  {"to", 1.2 * alpha},
+                  {"to", alpha},  // a limit: its border is drawn smooth
                   {"text", "fainter where not significant, p > " + csv_number(alpha, 3)}};
   page["linked"] = EnsembleJson::array();
   const std::pair<const char*, std::string> linked[] = {

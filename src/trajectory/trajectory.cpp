@@ -78,13 +78,6 @@ StartFrom usual_start(const CompareOptions& options) {
   return options.method == Method::kMorph ? StartFrom::kSource : StartFrom::kPrevious;
 }
 
-StartFrom parse_start(const std::string& text, const CompareOptions& options) {
-  if (text == "auto") return usual_start(options);
-  if (text == "previous") return StartFrom::kPrevious;
-  if (text == "source") return StartFrom::kSource;
-  throw InputError("start: '" + text + "' is not auto, previous or source");
-}
-
 TrajectoryRun::TrajectoryRun(TrajectoryPlan plan, SeriesCsv file, std::optional<ResidueCsv> residues)
     : plan_(std::move(plan)), file_(std::move(file)), residues_(std::move(residues)), steps_(steps_of(plan_)) {
   if (plan_.options.offsets_A.size() > 1)

@@ -37,8 +37,6 @@ struct TrajectoryPlan {
 
 /// Default start of mappings: the source (morph) or the frame before (deform).
 StartFrom usual_start(const CompareOptions& options);
-/// "auto", "source" or "previous". @throws InputError
-StartFrom parse_start(const std::string& text, const CompareOptions& options);
 
 /// One frame to compare.
 struct TrajectoryStep {

@@ -112,18 +112,22 @@ TEST_CASE("each triangle has the first reason that holds") {
                Why::kTrusted, Why::kTrusted}));
 }
 
-TEST_CASE("what turned off is not trusted: residues always, side chains where they are left out") {
-  MappedSurface s = separate_triangles(4);
-  const std::vector<std::int32_t> target_of = {0, 1, 2, 3};
-  s.turned.assign(12, 0);
+TEST_CASE("what turned off is not trusted: residues always, side chains far off, or all where they are left out") {
+  MappedSurface s = separate_triangles(5);
+  const std::vector<std::int32_t> target_of = {0, 1, 2, 3, 4};
+  s.turned.assign(15, 0);
   s.turned[0] = s.turned[1] = 2;  // two corners of three on a residue
   s.turned[3] = 2;                // one
   s.turned[6] = s.turned[7] = 1;  // two on a side chain
   s.turned[9] = s.turned[10] = 2;
+  s.turned[12] = s.turned[13] = 3;  // two far off on a side chain
   s.slip[9] = s.slip[10] = s.slip[11] = 9;
-  CHECK(espdiff::why_of_mapping(s, target_of) == codes({Why::kTurned, Why::kTrusted, Why::kTrusted, Why::kSlipped}));
-  CHECK(espdiff::why_of_mapping(s, target_of, true) ==
-        codes({Why::kTurned, Why::kTrusted, Why::kTurned, Why::kSlipped}));
+  CHECK(espdiff::why_of_mapping(s, target_of) ==
+        codes({Why::kTurned, Why::kTrusted, Why::kTrusted, Why::kSlipped, Why::kTurned}));
+  CHECK(espdiff::why_of_mapping(s, target_of, espdiff::KeptTurns::kNone) ==
+        codes({Why::kTurned, Why::kTrusted, Why::kTurned, Why::kSlipped, Why::kTurned}));
+  CHECK(espdiff::why_of_mapping(s, target_of, espdiff::KeptTurns::kAll) ==
+        codes({Why::kTurned, Why::kTrusted, Why::kTrusted, Why::kSlipped, Why::kTrusted}));
 }
 
 TEST_CASE("a point on a residue that touches its own counts within 0.2 A") {

@@ -55,6 +55,7 @@ TEST_CASE("an ensemble's page has the surface with p, the patches, their series,
   CHECK(record.at("title") == "mutant against wild");
   CHECK(contains(record.at("verdict").at("text").get<std::string>(), "differ on "));
   CHECK(record.at("fade").at("text") == "fainter where not significant, p > 0.05");
+  CHECK(record.at("fade").at("from") == record.at("fade").at("to"));  // a limit, whose border is drawn smooth
   CHECK(record.at("linked").at(2).at(1) == "mutant - wild");
   CHECK(record.at("patches").size() == 1);
   CHECK(record.at("series").at("frames").size() == 80);

@@ -1,7 +1,9 @@
 """Inputs of the package's tests: a small made protein, and real ones where they are."""
 
+import json
 import os
 import pathlib
+import re
 import signal
 
 import numpy as np
@@ -65,6 +67,22 @@ def program():
     if not path or not os.access(path, os.X_OK):
         pytest.skip("SKIPPED: no command line; set ESPDIFF_PROGRAM to its path")
     return path
+
+
+@pytest.fixture
+def page_record():
+    """What the page of a result's files holds, by the prefix of the result."""
+    import espdiff
+
+    def record(prefix):
+        try:
+            page = espdiff.report(prefix)
+        except espdiff.DeviceError as error:
+            assert "libjs-three" in str(error)
+            pytest.skip("SKIPPED: built without libjs-three")
+        return json.loads(re.search(r'<script[^>]*id="record"[^>]*>(.*?)</script>', page, re.DOTALL).group(1))
+
+    return record
 
 
 @pytest.fixture

@@ -293,3 +293,16 @@ def test_regression_is_that_of_scipy(ensemble):
         predicted = values[others].mean() + (scores @ y) / (scores @ scores) * (
             (columns[k] - columns[others].mean(0)) @ direction)
         assert replicate["predicted"] == pytest.approx(predicted, rel=1e-4)
+
+
+def test_page(ensemble, page_record):
+    """The page of the ensemble: its conclusion, patches, surface and series are those of its files."""
+    record, result = page_record(ensemble["folder"] / "out"), ensemble["json"]
+    assert record["kind"] == "ensemble" and record["title"] == "mutant against wild"
+    assert record["n_vertices"] == len(ensemble["points"])
+    assert len(record["patches"]) == len(result["patches"]) > 0
+    assert record["verdict"]["text"].startswith("The states, as these simulations sample them, differ on ")
+    limit = record["fade"]
+    assert limit["name"] == "p_family_wise" and limit["from"] == limit["to"] == 0.05
+    assert len(record["series"]["frames"]) == 80
+    assert {"potential_source", "potential_target", "potential_difference", "p_family_wise"} <= {q["name"] for q in record["quantities"]}

@@ -7,6 +7,7 @@ import inspect
 import json
 import pathlib
 import pickle
+import subprocess
 
 import numpy as np
 import pytest
@@ -288,6 +289,23 @@ def _three_rows(folder):
 def _saved_matrix(folder):
     espdiff.matrix(_three_rows(folder), potential="coulomb", output=folder / "m")
     return folder / "m.json"
+
+
+def test_page_of_a_trajectory(program, page_record, tmp_path):
+    states = _three_rows(tmp_path)
+    models = "".join(f"MODEL     {k + 1}\n{state.read_text()}ENDMDL\n" for k, state in enumerate(states))
+    (tmp_path / "frames.pqr").write_text(models)
+    subprocess.run([program, "trajectory", states[0], tmp_path / "frames.pqr", "-o", tmp_path / "t.csv", "-q", "--potential", "coulomb"],
+                   check=True)
+    rows = [line for line in (tmp_path / "t.csv").read_text().splitlines() if not line.startswith("#")]
+    for given in ("t", "t.csv"):
+        record = page_record(tmp_path / given)
+        assert record["kind"] == "trajectory" and record["states"].startswith("3 frames, each compared with one structure")
+        assert record["labels"] == ["0", "1", "2"] == [row.split(",")[0] for row in rows[1:]]
+        assert "mean_abs_difference" in json.dumps(record["metrics"])
+    (tmp_path / "t.csv").write_text("frame\n0\n")
+    with pytest.raises(espdiff.FormatError, match="t.csv: no column holds a metric of this version of espdiff"):
+        espdiff.report(tmp_path / "t.csv")
 
 
 @pytest.mark.parametrize("prefix", ["/", "", "folder/"])

@@ -20,6 +20,7 @@
 #include "potential/potential_plan.h"
 #include "potential/potential_settings.h"
 #include "study/matrix_settings.h"
+#include "trajectory/trajectory_settings.h"
 #include "vmdplugin/bridge/molfile_bridge.h"
 #include "vmdplugin/values/option_spelling.h"
 #ifdef ESPDIFF_HAVE_HDF5
@@ -120,10 +121,11 @@ Tcl_Obj* list_rows(const std::vector<OptionRow<Study>>& rows) {
   return to_list(all);
 }
 
-/// STUDY: the options of `matrix` or `ensemble` besides those of a comparison.
+/// STUDY: the options of `matrix`, `trajectory` or `ensemble` besides those of a comparison.
 Tcl_Obj* list_study_settings(const Call& call) {
   const std::string study = call.text(0);
   if (study == "matrix") return list_rows(matrix_settings());
+  if (study == "trajectory") return list_rows(trajectory_settings());
 #ifdef ESPDIFF_HAVE_HDF5
   if (study == "ensemble") return list_rows(ensemble_settings());
 #endif

@@ -14,18 +14,11 @@
 #include "potential/potential.h"
 #include "potential/potential_settings.h"
 #include "prepare/input_files.h"
-#include "trajectory/series_head.h"
+#include "trajectory/trajectory_settings.h"
 #include "vmdplugin/values/tcl_values.h"
 
 namespace espdiff::vmdplugin {
 namespace {
-
-ExistingFile existing_file(DictReader& reader) {
-  const bool resume = reader.boolean("resume", false), overwrite = reader.boolean("overwrite", false);
-  if (resume && overwrite)
-    throw InputError(switched_on("resume") + " and " + switched_on("overwrite") + " exclude each other");
-  return resume ? ExistingFile::kResume : overwrite ? ExistingFile::kReplace : ExistingFile::kRefuse;
-}
 
 SeriesHead pairs_of(Tcl_Obj* list, const std::string& what) {
   SeriesHead pairs;
@@ -57,8 +50,6 @@ SeriesDescription parse_description(DictReader& reader, double temperature_K) {
   SeriesDescription run;
   if (Tcl_Obj* const file = reader.find("file")) run.files = {to_string(file)};
   if (Tcl_Obj* const molecule = reader.find("molecule")) run.molecule = pairs_of(molecule, "molecule");
-  for (Tcl_Obj* const frame : to_vector(reader.require("frames"), "frames"))
-    run.frames.push_back(to_int(frame, "frames"));
   run.reference = to_string(reader.require("reference"));
   if (Tcl_Obj* const map = reader.find("map")) run.map = map_in_words(map, temperature_K);
   if (Tcl_Obj* const map = reader.find("reference_map")) run.reference_map = map_in_words(map, temperature_K);
@@ -72,46 +63,42 @@ Reference parse_reference(const std::string& text) {
   throw InputError("against: '" + text + "' is not one, previous or same");
 }
 
-/// PLAN: csv FILE ?resume B? ?overwrite B? frames LIST reference TEXT ?row_reference TEXT? ?against one|previous|same?
-/// ?source_file PATH? (whose frames are the sources) ?map TEXT? ?reference_map TEXT? ?one_map B? ?start S? ?on_error E?
-/// ?region B? (the reference has one) ?residues FILE? ?residue_quantity Q? inputs FILES (which no output may replace)
-/// and file PATH or molecule {NAME TEXT ...}, lines of the head.
+/// PLAN: csv FILE, the options of trajectory_settings() by name, numbers LIST (of the frames) reference TEXT
+/// ?row_reference TEXT? ?against one|previous|same? ?source_file PATH? (whose frames are the sources) ?map TEXT?
+/// ?reference_map TEXT? ?one_map B? ?region B? (the reference has one) inputs FILES (which no output may replace) and
+/// file PATH or molecule {NAME TEXT ...}, lines of the head.
 Tcl_Obj* trajectory(const Call& call) {
   auto object = std::make_shared<TrajectoryObject>();
   DictReader options(call.arguments[1], "options");
   object->computation = parse_computation(options, nullptr);
   DictReader reader(call.arguments[0], "plan");
   const std::string csv = to_string(reader.require("csv"));
-  const ExistingFile existing = existing_file(reader);
+  TrajectoryRequest request;
+  reader.take(trajectory_settings(), request);
   SeriesDescription run = parse_description(reader, object->computation.options.temperature_K);
   TrajectoryPlan plan;
   plan.options = object->computation.options;
-  plan.frames = run.frames;
+  check_request(request, plan.options);
+  for (Tcl_Obj* const frame : to_vector(reader.require("numbers"), "numbers"))
+    plan.frames.push_back(to_int(frame, "numbers"));
   plan.against = parse_reference(reader.text("against", "one"));
   plan.reference = reader.text("row_reference", run.reference);
-  plan.start = run.start = parse_start(reader.text("start", "auto"), plan.options);
-  plan.skip_errors = reader.text("on_error", "stop") == "skip";
   plan.compared = parts_and_fields(plan.options);
   if (reader.boolean("region", false) && !plan.options.input.has_region())
     plan.compared.parts.insert(plan.compared.parts.begin(), kRegionPart);
   object->one_map = reader.boolean("one_map", false);
   object->against = plan.against;
-  const std::string source_file = reader.text("source_file", ""), residues = reader.text("residues", ""),
-                    quantity = reader.text("residue_quantity", "");
+  const std::string source_file = reader.text("source_file", "");
   std::vector<std::string> inputs = input_files(plan.options.input);
   for (Tcl_Obj* const path : to_vector(reader.require("inputs"), "inputs")) inputs.push_back(to_string(path));
   reader.finish();
   inputs.insert(inputs.end(), run.files.begin(), run.files.end());
   inputs.push_back(source_file);
-  check_outputs(inputs, {csv, csv + ".state", residues});
+  check_outputs(inputs, {csv, csv + ".state", request.residues});
   if (!source_file.empty()) run.reference_files = {source_file};
-  const SeriesHead head = series_head(run, plan.options);
-  std::optional<ResidueCsv> table;
-  if (!residues.empty()) table.emplace(residues, quantity, existing, plan.options.fields);
-  SeriesCsv rows(csv, head, existing, plan.compared);
-  object->run = std::make_unique<TrajectoryRun>(std::move(plan), std::move(rows), std::move(table));
   if (!run.files.empty()) object->files = std::make_unique<FrameFiles>(run.files);
   if (!source_file.empty()) object->source_files = std::make_unique<FrameFiles>(std::vector{source_file});
+  object->run = begin_trajectory(request, csv, std::move(plan), std::move(run));
   return to_obj(call.handles.add(object));
 }
 

@@ -15,12 +15,19 @@
 #include "report/state_report.h"
 #include "series.h"
 #include "study/series_source.h"
-#include "trajectory/trajectory.h"
+#include "trajectory/trajectory_settings.h"
 
 namespace espdiff::python {
 namespace {
 
 namespace nb = nanobind;
+
+/// By the trajectory's option of this name.
+StartFrom parse_start(const std::string& text, const CompareOptions& options) {
+  TrajectoryRequest request;
+  set_rows(trajectory_settings(), request, {{"start", text}});
+  return request.start_of(options);
+}
 
 /// A series with all that it refers to.
 class PySeries {

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdio>
 #include <iostream>
-#include <optional>
 #include <utility>
 
 #include "base/formatted.h"
@@ -21,27 +20,14 @@
 #include "options/options.h"
 #include "plot/gnuplot.h"
 #include "prepare/input_files.h"
-#include "report/residue_values.h"
-#include "trajectory/series_head.h"
+#include "trajectory/trajectory_settings.h"
 
 namespace espdiff::cli {
 namespace {
 
 void add_run_options(CLI::App& p, TrajectoryArguments& a) {
   const char* const group = "Frames";
-  p.add_option("--frames", a.frames,
-               "Frames to compare, from 0: all, a frame, begin:end or begin:step:end, or several of these with commas; "
-               "a frame may also be first, last (or end), or -1 (the last)")
-      ->capture_default_str()
-      ->group(group);
-  p.add_option(
-       "--start", a.start,
-       "Begin each frame's mapping at the source, or at the previous frame's where that is nearer (by the morph "
-       "less than half as far, with at most 0.5 % of the source lost on the way): small steps, in less time; auto: "
-       "source by --method morph, previous by deform")
-      ->check(CLI::IsMember({"auto", "previous", "source"}))
-      ->capture_default_str()
-      ->group(group);
+  add_rows(p, trajectory_settings(), a.request);
   p.add_option("--reference", a.reference, "Compare each frame with SOURCE, or with the frame before it")
       ->check(CLI::IsMember({"source", "previous"}))
       ->capture_default_str()
@@ -52,20 +38,6 @@ void add_run_options(CLI::App& p, TrajectoryArguments& a) {
       ->group(group);
   p.add_option("--frames-of", a.frames_of,
                "Structure or topology whose atoms, charges and radii FRAMES have, where they are not SOURCE's")
-      ->group(group);
-  p.add_option("--residues", a.residues,
-               "CSV file that gets one value of each residue of SOURCE for each frame: a row a frame")
-      ->group(group);
-  p.add_option("--residue-quantity", a.residue_quantity,
-               "Column of the residue table for --residues (mean_abs_difference; without potentials "
-               "mean_displacement_A)")
-      ->check(CLI::IsMember(residue_quantities()))
-      ->group(group);
-  p.add_flag("--resume", a.resume, "Continue where an interrupted run left the file")->group(group);
-  p.add_flag("--overwrite", a.overwrite, "Replace the file if it exists")->group(group);
-  p.add_option("--on-error", a.on_error, "skip writes a row with the error in its column `error`, and continues")
-      ->check(CLI::IsMember({"stop", "skip"}))
-      ->capture_default_str()
       ->group(group);
   add_plugins_option(p, a.plugins, group);
   p.add_option("--source-model", a.source_model,
@@ -95,22 +67,21 @@ std::string reference_words(const TrajectoryArguments& a) {
 }
 
 /// @param potential the computed potential in words; empty for none
-SeriesHead head_of(const TrajectoryArguments& a, const TrajectoryPlan& plan, const std::string& potential) {
+SeriesDescription description_of(const TrajectoryArguments& a, const TrajectoryPlan& plan,
+                                 const std::string& potential) {
   SeriesDescription run;
   run.files = a.targets;
   run.structure = a.structure;
-  run.frames = plan.frames;
   run.frames_of = a.frames_of;
   run.reference = plan.reference;
   run.reference_files = a.source_frames;
-  run.start = plan.start;
   if (!potential.empty()) {
     run.map = potential;
   } else {
     run.map = map_words(a.maps, a.maps.target_map, a.maps.target_map_unit);
     run.reference_map = map_words(a.maps, a.maps.source_map, a.maps.source_map_unit);
   }
-  return series_head(run, plan.options);
+  return run;
 }
 
 constexpr std::size_t kPlotEnding = 4;
@@ -124,46 +95,37 @@ bool is_plot(const std::string& path) {
 
 int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
   check_map_options(a.maps);
-  if (a.resume && a.overwrite) throw InputError("--resume and --overwrite exclude each other");
-  if (a.residues.empty() && !a.residue_quantity.empty()) throw InputError("--residue-quantity needs --residues FILE");
   if (a.reference == "previous" && !(a.source_frames.empty() && a.frames_of.empty()))
     throw InputError(std::string(a.source_frames.empty() ? "--frames-of" : "--source-frames") +
                      " and --reference previous exclude each other" +
                      (a.source_frames.empty() ? "; give the frames' own structure as SOURCE" : ""));
   TrajectoryPlan plan;
   plan.options = make_options(a.settings);
+  check_request(a.request, plan.options);
   std::vector<std::string> inputs = input_files(plan.options.input);
   inputs.insert(inputs.end(), a.targets.begin(), a.targets.end());
   inputs.insert(inputs.end(), a.source_frames.begin(), a.source_frames.end());
   inputs.insert(inputs.end(), {a.source, a.frames_of, a.maps.source_map, a.maps.target_map});
-  check_outputs(inputs, {a.output, a.output + ".state", a.residues, a.picture});
+  check_outputs(inputs, {a.output, a.output + ".state", a.request.residues, a.picture});
   if (!a.picture.empty()) {
     require_gnuplot();
-    if (!a.overwrite && !a.resume) check_outputs({}, {a.picture}, false);
+    if (!a.request.overwrite && !a.request.resume) check_outputs({}, {a.picture}, false);
   }
   const auto begun = std::chrono::steady_clock::now();
   context.progress->report("read", 0.0);
   TrajectorySides sides(a, plan.options, *context.progress);
   plan.against = reference_of(a);
   plan.reference = reference_words(a);
-  plan.frames = parse_frames(a.frames, sides.frames());
-  plan.start = parse_start(a.start, plan.options);
-  plan.skip_errors = a.on_error == "skip";
+  plan.frames = parse_frames(a.request.frames, sides.frames());
   plan.compared = parts_and_fields(plan.options);
-  const ExistingFile existing = a.resume      ? ExistingFile::kResume
-                                : a.overwrite ? ExistingFile::kReplace
-                                              : ExistingFile::kRefuse;
   const std::unique_ptr<Engine> engine = make_engine(a.device);
-  std::optional<ResidueCsv> residues;
-  if (!a.residues.empty()) residues.emplace(a.residues, a.residue_quantity, existing, plan.options.fields);
-  TrajectoryRun run(plan, SeriesCsv(a.output, head_of(a, plan, sides.potential()), existing, plan.compared),
-                    std::move(residues));
-  if (!run.warning().empty()) std::fprintf(stderr, "espdiff: %s\n", printable(run.warning()).c_str());
-  run.note_inputs(sides.inputs());
-  while (!run.is_done())
-    run.step(
-        *engine, [&] { return sides.step(run.next()); }, *context.progress);
-  const TrajectorySummary summary = run.summary();
+  const auto run = begin_trajectory(a.request, a.output, plan, description_of(a, plan, sides.potential()));
+  if (!run->warning().empty()) std::fprintf(stderr, "espdiff: %s\n", printable(run->warning()).c_str());
+  run->note_inputs(sides.inputs());
+  while (!run->is_done())
+    run->step(
+        *engine, [&] { return sides.step(run->next()); }, *context.progress);
+  const TrajectorySummary summary = run->summary();
   if (!a.picture.empty()) plot_frames(a.output, a.picture);
   if (a.quiet) return 0;
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();

@@ -274,6 +274,14 @@ TEST_CASE("trajectory against trajectory: frame i of one molecule against frame 
             .err == "espdiff: --source-frames and --reference previous exclude each other\n");
   CHECK(run_espdiff("trajectory " + wild + " " + frames + " --residue-quantity mean_slip_A -o " + folder.file("b.csv"))
             .err == "espdiff: --residue-quantity needs --residues FILE\n");
+  // A field's column, where the field was asked for.
+  const std::string of_field = "trajectory " + wild + " " + frames + " --frames 0 -q --residues " +
+                               folder.file("q.csv") + " --residue-quantity charge_mean_abs_difference -o " +
+                               folder.file("b.csv");
+  CHECK(contains(run_espdiff(of_field).err, "residues have no quantity 'charge_mean_abs_difference'; there are: "));
+  CHECK(run_espdiff(of_field + " --potential none --field charge").status == 0);
+  CHECK_FALSE(column(folder.file("q.csv"), "A:ALA 1")[0].empty());
+  std::filesystem::remove(folder.file("b.csv"));
   CHECK(run_espdiff("trajectory " + wild + " " + frames + " --residues " + frames + " -o " + folder.file("b.csv"))
             .status == 2);
   CHECK_FALSE(std::filesystem::exists(folder.file("b.csv")));
