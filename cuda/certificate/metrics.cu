@@ -7,55 +7,27 @@
 #include "base/error.h"
 #include "cuda/surface/mesh/adjacency.h"
 #include "engine/certificate_stage.h"
+#include "engine/potential_sums.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Area-weighted sums over vertices.
-struct Sums {
-  double area = 0, abs_difference = 0, squared_difference = 0, difference = 0, sign_change = 0;
-  double source = 0, target = 0, source_source = 0, target_target = 0, source_target = 0, displacement = 0,
-         path_length = 0;
+/// Sums over vertices.
+struct Sums : PotentialSums {
+  double displacement = 0, path_length = 0;
 
   ESPDIFF_HD Sums& operator+=(const Sums& o) {
-    area += o.area;
-    abs_difference += o.abs_difference;
-    squared_difference += o.squared_difference;
-    difference += o.difference;
-    sign_change += o.sign_change;
-    source += o.source;
-    target += o.target;
-    source_source += o.source_source;
-    target_target += o.target_target;
-    source_target += o.source_target;
+    PotentialSums::operator+=(o);
     displacement += o.displacement;
     path_length += o.path_length;
     return *this;
   }
 };
 
-/// Pearson's correlation. A spread that rounding could have made counts as none.
-double correlation_of(const Sums& sums) {
-  const double w = sums.area, of_source = sums.source_source - sums.source * sums.source / w,
-               of_target = sums.target_target - sums.target * sums.target / w;
-  constexpr double kRounding = 1e-12;
-  if (!(of_source > kRounding * sums.source_source) || !(of_target > kRounding * sums.target_target))
-    return std::numeric_limits<double>::quiet_NaN();
-  return (sums.source_target - sums.source * sums.target / w) / std::sqrt(of_source * of_target);
-}
-
 Metrics finish(const Sums& sums) {
-  Metrics m;
-  m.area_A2 = sums.area;
-  m.mean_abs_difference = sums.abs_difference / sums.area;  // 0/0 is NaN: no valid area
-  m.rms_difference = std::sqrt(sums.squared_difference / sums.area);
-  m.mean_signed_difference = sums.difference / sums.area;
-  m.sign_change_area_fraction = sums.sign_change / sums.area;
-  m.hodgkin_index = 2 * sums.source_target / (sums.source_source + sums.target_target);
-  m.carbo_index = sums.source_target / std::sqrt(sums.source_source * sums.target_target);
-  m.mean_displacement_A = sums.displacement / sums.area;
-  m.mean_path_length_A = sums.path_length / sums.area;
-  m.correlation = correlation_of(sums);
+  Metrics m = sums.metrics();
+  m.mean_displacement_A = sums.displacement / sums.area_A2;
+  m.mean_path_length_A = sums.path_length / sums.area_A2;
   return m;
 }
 
@@ -101,16 +73,16 @@ Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped,
     if (!(weight[v] > 0)) return s;
     const double w = static_cast<double>(weight[v]), pa = static_cast<double>(a[v]), pb = static_cast<double>(b[v]),
                  d = pb - pa;
-    s.area = w;
+    s.area_A2 = w;
     s.abs_difference = w * fabs(d);
     s.squared_difference = w * d * d;
     s.difference = w * d;
     s.sign_change = (pa < 0 && pb > 0) || (pa > 0 && pb < 0) ? w : 0;
-    s.source = w * pa;
-    s.target = w * pb;
-    s.source_source = w * pa * pa;
-    s.target_target = w * pb * pb;
-    s.source_target = w * pa * pb;
+    s.a = w * pa;
+    s.b = w * pb;
+    s.aa = w * pa * pa;
+    s.bb = w * pb * pb;
+    s.ab = w * pa * pb;
     s.path_length = lengths != nullptr ? w * static_cast<double>(lengths[v]) : 0.0;
     s.displacement = w * static_cast<double>(norm(to[v].xyz() - from[v].xyz()));
     return s;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/not_a_number.h"
 #include "base/progress.h"
 #include "ensemble/file/ensemble_file.h"
 
@@ -12,36 +11,23 @@ namespace espdiff {
 namespace {
 
 /// The block's sums of two frames. Each is added up by itself first, so that long sums stay exact.
-PairSums sums_of(const StateBlock& block, std::size_t i, std::size_t j, const double* weights) {
+PotentialSums sums_of(const StateBlock& block, std::size_t i, std::size_t j, const double* weights) {
   const double *a = block.values(j), *b = block.values(i), *has_a = block.trusted(j), *has_b = block.trusted(i);
-  PairSums s;
+  PotentialSums s;
   for (std::size_t c = 0; c < block.width(); ++c) {
     const double w = weights[c] * has_a[c] * has_b[c], d = b[c] - a[c];
     s.area_A2 += w;
-    s.absolute += w * std::fabs(d);
-    s.squared += w * d * d;
+    s.abs_difference += w * std::fabs(d);
+    s.squared_difference += w * d * d;
     s.difference += w * d;
     s.sign_change += a[c] * b[c] < 0 ? w : 0;
-    s.product += w * a[c] * b[c];
-    s.first += w * a[c] * a[c];
-    s.second += w * b[c] * b[c];
-    s.sum_first += w * a[c];
-    s.sum_second += w * b[c];
+    s.ab += w * a[c] * b[c];
+    s.aa += w * a[c] * a[c];
+    s.bb += w * b[c] * b[c];
+    s.a += w * a[c];
+    s.b += w * b[c];
   }
   return s;
-}
-
-void add(PairSums& sums, const PairSums& s) {
-  sums.area_A2 += s.area_A2;
-  sums.absolute += s.absolute;
-  sums.squared += s.squared;
-  sums.difference += s.difference;
-  sums.sign_change += s.sign_change;
-  sums.product += s.product;
-  sums.first += s.first;
-  sums.second += s.second;
-  sums.sum_first += s.sum_first;
-  sums.sum_second += s.sum_second;
 }
 
 double product_of(const StateBlock& block, std::size_t i, std::size_t j, const double* weights) {
@@ -53,27 +39,12 @@ double product_of(const StateBlock& block, std::size_t i, std::size_t j, const d
 
 }  // namespace
 
-Metrics PairSums::metrics() const {
-  Metrics m;
-  m.area_A2 = area_A2;
-  m.mean_abs_difference = area_A2 > 0 ? absolute / area_A2 : kNaN;
-  m.rms_difference = area_A2 > 0 ? std::sqrt(squared / area_A2) : kNaN;
-  m.mean_signed_difference = area_A2 > 0 ? difference / area_A2 : kNaN;
-  m.sign_change_area_fraction = area_A2 > 0 ? sign_change / area_A2 : kNaN;
-  m.hodgkin_index = first + second > 0 ? 2 * product / (first + second) : kNaN;
-  m.carbo_index = first > 0 && second > 0 ? product / std::sqrt(first * second) : kNaN;
-  const double spread = (first - sum_first * sum_first / area_A2) * (second - sum_second * sum_second / area_A2);
-  m.correlation = spread > 0 ? (product - sum_first * sum_second / area_A2) / std::sqrt(spread) : kNaN;
-  m.mean_displacement_A = m.mean_path_length_A = kNaN;
-  return m;
-}
-
 Metrics StateSums::metrics(std::size_t source, std::size_t target) const {
-  PairSums sums = pairs[place(std::max(source, target), std::min(source, target))];
+  PotentialSums sums = pairs[place(std::max(source, target), std::min(source, target))];
   if (source > target) {
     sums.difference = -sums.difference;
-    std::swap(sums.first, sums.second);
-    std::swap(sums.sum_first, sums.sum_second);
+    std::swap(sums.aa, sums.bb);
+    std::swap(sums.a, sums.b);
   }
   return sums.metrics();
 }
@@ -119,7 +90,7 @@ StateSums sum_states(const EnsembleFile& file, const std::vector<std::size_t>& f
     for (std::size_t i = 0; i < sums.n; ++i) {
       for (std::size_t j = 0; j <= i; ++j) {
         const std::size_t at = StateSums::place(i, j);
-        add(sums.pairs[at], sums_of(block, i, j, &weights[begin]));
+        sums.pairs[at] += sums_of(block, i, j, &weights[begin]);
         sums.complete[at] += product_of(block, i, j, complete.data());
       }
     }

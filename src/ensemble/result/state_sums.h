@@ -5,30 +5,17 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/certificate_stage.h"
+#include "engine/potential_sums.h"
 
 namespace espdiff {
 
 class EnsembleFile;
 
-/// Sums over the area of the vertices where both frames of a pair are trusted, of potentials a and b.
-struct PairSums {
-  double area_A2 = 0;
-  double absolute = 0, squared = 0;           ///< of b - a
-  double difference = 0;                      ///< b - a
-  double sign_change = 0;                     ///< area where one is positive and the other negative
-  double product = 0, first = 0, second = 0;  ///< a b, a a, b b
-  double sum_first = 0, sum_second = 0;       ///< a, b
-
-  /// The metrics of a pair. Those that need the mapping from a to b itself, such as displacements, are NaN; so is
-  /// everything where there is no area.
-  Metrics metrics() const;
-};
-
-/// Pairs of n frames: i with j at [i * (i + 1) / 2 + j], j at most i; a is of frame j, b of frame i.
+/// Sums over the vertices where both frames of a pair are trusted. Pairs of n frames: i with j at [i * (i + 1) / 2 +
+/// j], j at most i; a is of frame j, b of frame i.
 struct StateSums {
   std::size_t n = 0;
-  std::vector<PairSums> pairs;
+  std::vector<PotentialSums> pairs;
   std::vector<double> complete;  ///< products a b over the vertices that every frame has, trusted or not
   double complete_area_A2 = 0;
 
