@@ -54,8 +54,8 @@ struct TrustedArea {
 };
 
 /// Trusted area on side chains that turned about their bonds, farther than kLargeSlip_A from where they carried it, and
-/// within kFarTurn_A unless kAll are kept (turned_side_chains.h). There the mapping finds the residue, but another of its
-/// faces, so that a potential is compared with that beside it.
+/// within kFarTurn_A unless kAll are kept (turned_side_chains.h). There the mapping finds the residue, but another of
+/// its faces, so that a potential is compared with that beside it.
 struct TurnedArea {
   double of_trusted = kNaN;                ///< its share of the trusted area of the source; NaN without any
   double mean_abs_difference = kNaN;       ///< over the rest of the trusted area; NaN without potentials or rest

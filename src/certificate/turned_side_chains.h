@@ -31,13 +31,13 @@ struct TurnedAtom {
   RigidTransform carried{};  ///< where the atom carried what is bound to it: the source's own frame to the target's
 };
 
-/// [source atom] what turned by more than kLeastTurnDegrees, kFarSideChain never. The bonds of an atom are those to its paired heavy
-/// neighbours in the residue, fitted at both ends (Kabsch); a hydrogen, or the end of a chain, has the bonds of its
-/// only neighbour. Half a turn that exchanges equal atoms (Asp, Glu, Phe, Tyr, Arg) does not count. Surroundings are
-/// the CA within 13 A of a residue's CA, or of the middle of a ligand's heavy atoms (at least four), in both states; at
-/// least six. A ligand that lies within 1 A of the same elements under other names did not turn. kNone for unpaired
-/// atoms, and where N, CA or C of a residue is missing. Frames of the molecules do not matter. Time: quadratic in the
-/// residues, below 0.05 s for 2000.
+/// [source atom] what turned by more than kLeastTurnDegrees, kFarSideChain never. The bonds of an atom are those to its
+/// paired heavy neighbours in the residue, fitted at both ends (Kabsch); a hydrogen, or the end of a chain, has the
+/// bonds of its only neighbour. Half a turn that exchanges equal atoms (Asp, Glu, Phe, Tyr, Arg) does not count.
+/// Surroundings are the CA within 13 A of a residue's CA, or of the middle of a ligand's heavy atoms (at least four),
+/// in both states; at least six. A ligand that lies within 1 A of the same elements under other names did not turn.
+/// kNone for unpaired atoms, and where N, CA or C of a residue is missing. Frames of the molecules do not matter. Time:
+/// quadratic in the residues, below 0.05 s for 2000.
 std::vector<TurnedAtom> turned_atoms(const Molecule& source, const Molecule& target, const AtomPairing& pairing);
 
 }  // namespace espdiff
