@@ -82,16 +82,22 @@ vec3 surfaceColour()
   return scaleColour(value);
 }
 
-/// 0 where the correspondence is certain, 1 where it is least certain.
+bool isUntrusted()
+{
+  return marks && bordersFS.z < 0.5;
+}
+
+/// 0 where the correspondence is certain, 1 where it is least certain; 0 in one grey where it is not trusted.
 float fadedHere()
 {
+  if (part == 1 || isUntrusted()) return 0.0;
   return uncertaintyFS < 0.0 ? 1.0 : clamp((uncertaintyFS - fade.x) / (fade.y - fade.x), 0.0, 1.0);
 }
 
-float opacityHere()
+/// Pales toward the paper. A surface that became transparent instead would show the borders of what lies behind it.
+vec3 paled(vec3 lit)
 {
-  if (part == 1) return 1.0;
-  return fades && !toGrey ? mix(fade.w, fade.z, fadedHere()) : fade.w;
+  return fades && !toGrey ? mix(lit, vec3(1.0), (1.0 - fade.z / fade.w) * fadedHere()) : lit;
 }
 
 /// Diagonal stripes, fixed to the picture.
@@ -116,12 +122,17 @@ void main()
   if (cuts && part == 0 && bordersFS.x < 0.5) discard;
   if (cuts && part == 1 && (bordersFS.x >= 0.5 || bordersFS.x < tearEdge)) discard;
   vec3 colour = part == 1                    ? (onStripe() ? noValueColour : vec3(0.93))
-                : marks && bordersFS.z < 0.5 ? noValueColour
+                : isUntrusted()              ? noValueColour
                                              : surfaceColour();
-  if (toGrey && part == 0) colour = mix(colour, vec3(0.35), fadedHere());
+  if (toGrey) colour = mix(colour, vec3(0.35), fadedHere());
+  bool onLines = atBorder || atOutline;
   if (atBorder) colour = vec3(0.25);
   if (atOutline) colour = vec3(0.05);
-  if (colourBy == kReadBack) gl_FragData[0] = vec4(colour, 1.0);
-  else gl_FragData[0] = vec4(blinnPhong(colour, normalize(normalVC), positionVC), atBorder || atOutline ? 1.0 : opacityHere());
+  if (colourBy == kReadBack) {
+    gl_FragData[0] = vec4(colour, 1.0);
+  } else {
+    vec3 lit = blinnPhong(colour, normalize(normalVC), positionVC);
+    gl_FragData[0] = onLines ? vec4(lit, 1.0) : vec4(paled(lit), part == 1 ? 1.0 : fade.w);
+  }
   //VTK::DepthPeeling::Impl
 }

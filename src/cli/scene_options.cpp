@@ -71,11 +71,11 @@ void add_colour_options(CLI::App& p, SceneArguments& a) {
   add_flag(p, a, "--per-vertex", "Interpolate vertex values instead of looking up the maps at every pixel",
            [](Scene& s) { s.per_vertex = true; });
   add_flag(p, a, "--opaque", "Do not fade by slip", [](Scene& s) { s.fade = false; });
-  add_flag(p, a, "--fade-to-grey", "Fade to dark grey by slip, instead of becoming transparent",
+  add_flag(p, a, "--fade-to-grey", "Fade to dark grey by slip, instead of becoming pale",
            [](Scene& s) { s.opacity.to_grey = true; });
-  add<Number>(p, a, "--opaque-below", "Displacement up to which the surface is opaque, Angstrom [0.5]",
+  add<Number>(p, a, "--opaque-below", "Slip up to which the surface has its full colour, Angstrom [0.5]",
               [](Scene& s, Number v) { s.opacity.opaque_below_A = v; });
-  add<Number>(p, a, "--faint-above", "Displacement from which it is faintest, Angstrom [3]",
+  add<Number>(p, a, "--faint-above", "Slip from which it is palest, Angstrom [3]",
               [](Scene& s, Number v) { s.opacity.faint_above_A = v; });
   add<Number>(p, a, "--opacity", "Opacity of certain parts, 0 to 1; below 1 a molecule inside is visible [1]",
               [](Scene& s, Number v) { s.opacity.greatest = v; });

@@ -29,14 +29,35 @@ void append_planes(std::string& bytes, const std::vector<std::uint32_t>& values,
   }
 }
 
+#if defined(ESPDIFF_HAVE_ZLIB)
+/// Ends a compression that succeeded, failed or was cancelled.
+struct Deflation {
+  z_stream stream{};
+  ~Deflation() { deflateEnd(&stream); }
+};
+#endif
+
+/// In parts, since the smallest form of millions of numbers takes seconds. @throws Cancelled
 std::string deflated(const std::string& bytes) {
 #if defined(ESPDIFF_HAVE_ZLIB)
-  uLongf n = compressBound(bytes.size());
-  std::string out(n, '\0');
-  if (compress2(reinterpret_cast<Bytef*>(out.data()), &n, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
-                Z_BEST_COMPRESSION) != Z_OK)
-    throw Error(ErrorClass::kInternal, "the page's arrays could not be compressed");
-  out.resize(n);
+  constexpr std::size_t kPart = 1U << 17U;
+  Deflation deflation;
+  z_stream& stream = deflation.stream;
+  bool is_well = deflateInit(&stream, Z_BEST_COMPRESSION) == Z_OK;
+  std::string out(compressBound(bytes.size()), '\0');
+  for (std::size_t at = 0; is_well; at += kPart) {
+    CancelRequest().check();
+    const bool is_last = at + kPart >= bytes.size();
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data())) + at;
+    stream.avail_in = static_cast<uInt>(std::min(kPart, bytes.size() - at));
+    stream.next_out = reinterpret_cast<Bytef*>(out.data()) + stream.total_out;
+    stream.avail_out = static_cast<uInt>(out.size() - stream.total_out);
+    const int code = deflate(&stream, is_last ? Z_FINISH : Z_NO_FLUSH);
+    is_well = code == (is_last ? Z_STREAM_END : Z_OK);
+    if (is_last) break;
+  }
+  if (!is_well) throw Error(ErrorClass::kInternal, "the page's arrays could not be compressed");
+  out.resize(stream.total_out);
   return out;
 #else
   return bytes;

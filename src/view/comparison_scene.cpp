@@ -157,7 +157,7 @@ void ComparisonScene::add_parts(std::size_t panel, std::size_t sheet) {
     mapper->set_part(part);
     auto actor = vtkSmartPointer<vtkActor>::New();
     actor->SetMapper(mapper);
-    // Through a faint part the background shows, not the inside of the far wall.
+    // Through a translucent surface the molecule shows, not the inside of the far wall.
     actor->GetProperty()->BackfaceCullingOn();
     panels_[panel].renderer->AddActor(actor);
     parts_.push_back({panel, sheet, part, geometry, mapper, actor});
@@ -172,7 +172,7 @@ void ComparisonScene::update_looks() {
     drawn.mapper->set_look(look);
     drawn.mapper->set_maps(per_fragment() ? source_texture_ : no_texture_,
                            per_fragment() ? target_texture_ : no_texture_);
-    if (look.fades || look.opacity.greatest < 1)
+    if (look.opacity.greatest < 1)
       drawn.actor->ForceTranslucentOn();
     else
       drawn.actor->ForceTranslucentOff();
@@ -233,7 +233,7 @@ void ComparisonScene::fill_panels() {
     panel.renderer = vtkSmartPointer<vtkRenderer>::New();
     panel.renderer->SetViewport(panel.left, panel.bottom, panel.right, panel.top);
     panel.renderer->SetBackground(1, 1, 1);
-    // Sorts fragments by depth; otherwise faint triangles would hide each other according to their order in the file.
+    // Sorts fragments by depth; otherwise translucent triangles would hide each other according to their order in the file.
     panel.renderer->UseDepthPeelingOn();
     panel.renderer->SetMaximumNumberOfPeels(16);
     panel.renderer->SetOcclusionRatio(0);

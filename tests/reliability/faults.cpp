@@ -114,6 +114,22 @@ TEST_CASE("signals that can be caught end a run with one line and leave nothing 
   }
 }
 
+TEST_CASE("a signal while files get their names comes too late: they are there, and nobody is told that they are not") {
+  if (std::system("strace -V >/dev/null 2>&1") != 0) {
+    MESSAGE("SKIPPED: strace, which sends a signal at a call, is not installed");
+    return;
+  }
+  const Frames in;
+  const std::string fault = "strace -f -qq -o /dev/null -e inject=rename,renameat,renameat2,linkat:signal=TERM:when=1 ";
+  for (const auto& [arguments, file] :
+       {std::pair{"surface a.pqr -o s.vtp", "s.vtp"}, std::pair{"potential a.pqr --method coulomb -o p.dx", "p.dx"},
+        std::pair{"compare a.pqr m3.pqr -o out", "out.vtp"}}) {
+    const Outcome outcome = in.run(std::string(arguments) + " --overwrite", fault);
+    CHECK_MESSAGE(!contains(outcome.err, "cancelled"), outcome.err);
+    CHECK_MESSAGE(in.files().count(file) == 1, arguments);
+  }
+}
+
 TEST_CASE("a disk that is full, and a file at its limit of size, leave nothing") {
   const Frames in;
   const auto before = in.files();

@@ -75,8 +75,8 @@ int complementarity_verb(const ComplementarityArguments& a, const Context& conte
   for (const InterfaceOfComplex& interface : interfaces) result.states.push_back(&interface.result());
   for (std::size_t side = 0; side < 2 && interfaces.size() > 1; ++side)
     result.changes.push_back(change_of_side(*engine, interfaces[0], interfaces[1], side, options, *context.progress));
-  write_complementarity(a.output, result, provenance);
   context.progress->report("write", 1.0);
+  write_complementarity(a.output, result, provenance);
   if (!a.quiet) print_complementarity(std::cout, result);
   return 0;
 }

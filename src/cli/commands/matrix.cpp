@@ -96,7 +96,6 @@ int matrix_verb(const MatrixArguments& a, const Context& context) {
   study.run.read_files = {a.list, a.groups};
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   const MatrixReport report = run_matrix(study, *engine, *context.progress);
-  context.progress->report("write", 1.0);
   if (!a.quiet) print_report(a, *engine, report);
   return 0;
 }

@@ -232,9 +232,8 @@ int potential_verb(const PotentialArguments& a, const Context& context) {
     outputs.write_frame(i, series.step(molecule, cell, *context.progress));
     context.progress->report("frames", static_cast<double>(i + 1) / static_cast<double>(frames.size()));
   }
-  context.progress->report("write", 0.0);
-  outputs.finish(a, series.average());
   context.progress->report("write", 1.0);
+  outputs.finish(a, series.average());
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (a.quiet) return 0;
   if (states.preparation()) print_preparation(std::cout, *states.preparation());

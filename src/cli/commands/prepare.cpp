@@ -78,8 +78,8 @@ int prepare_verb(PrepareArguments& a, const Context& context) {
   write_pqr(pqr.stream(), state.molecule);
   json.stream() << as_json(a, context, file, state).dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
                 << '\n';
-  commit_all({&pqr, &json});
   context.progress->report("write", 1.0);
+  commit_all({&pqr, &json});
   if (!a.quiet) print_summary(a, state);
   return 0;
 }

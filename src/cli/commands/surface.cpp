@@ -105,8 +105,8 @@ int surface_verb(const SurfaceArguments& a, const Context& context) {
     write_dx(*density, make_density(*engine, molecule, options.surface));
     files.push_back(density.get());
   }
-  commit_all(files);
   context.progress->report("write", 1.0);
+  commit_all(files);
   if (a.quiet) return 0;
   if (state.preparation) print_preparation(std::cout, *state.preparation);
   if (!plan.because().empty()) std::cout << "potential      none: " << plan.because() << '\n';

@@ -159,7 +159,7 @@ void Legend::frame(const PixelBox& box) {
 
 double Legend::text_width(const std::string& words) const {
   // Accurate enough for layout; the font's true widths differ by a few per cent.
-  return 0.52 * text_height_ * static_cast<double>(words.size());
+  return 0.57 * text_height_ * static_cast<double>(words.size());
 }
 
 double Legend::key(double x, double y, Rgb colour, double opacity, const std::string& meaning) {
