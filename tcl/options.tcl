@@ -274,7 +274,7 @@ namespace eval ::espdiff {
     # How Tcl says what options of the command line say; empty where they are the same.
     proc instead_of {name word} {
         if {$name ni {compare matrix}} { return "" }
-        if {$word in {-potential -source-map -target-map} || [regexp {^-(pb|pme)-} $word]} {
+        if {$word in {-potential -source-map -target-map} || [regexp {^-(pb|pme)(-|$)} $word]} {
             return "a state names its own potential, such as {file A.pdb map pb} or {mol 0 map {pb ionic_strength 0.1}}"
         }
         if {$word in {-o -output}} { return "the command returns a result, which espdiff export writes to files" }

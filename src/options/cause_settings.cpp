@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/molecule/surface_parts.h"
+#include "base/text/printable.h"
 #include "causes/reading.h"
 #include "options/input_settings.h"
 #include "options/options.h"
@@ -59,8 +60,8 @@ void add_cause_settings(std::vector<Setting>& all) {
 void require_patch(const CompareOptions& options, const std::string& text, const std::string& name) {
   const auto is_it = [&](const PatchRequest& patch) { return patch.name == name; };
   if (std::any_of(options.input.patches.begin(), options.input.patches.end(), is_it)) return;
-  throw InputError(option("causes", text) + ": there is no patch of that name; give " +
-                   option("patch", name + "=SELECTION"));
+  throw InputError(option("causes", text) + ": there is no patch of that name; name a selection " + printable(name) +
+                   " by " + option("patch"));
 }
 
 void check_readings(const CompareOptions& options) {

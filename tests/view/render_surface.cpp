@@ -197,6 +197,19 @@ TEST_CASE("large displacements and corrupt triangles are paler than trusted part
   CHECK(grey.count(0, 0.25, 1, 0.9, [](int r, int g, int b) { return r != g || g != b; }) == 0);
 }
 
+TEST_CASE("what is not trusted has one grey, however far it slipped") {
+  if (!can_draw()) return;
+  const ScratchFolder scratch;
+  Paint near;
+  near.corrupt = [](Vec3d) { return true; };
+  Paint far = near;
+  far.displacement = [](Vec3d) { return 9.0; };
+  const auto is_grey = [](int r, int g, int b) { return r == g && g == b && r < 150; };
+  const int n_grey = drawn_sphere(scratch, near, small_picture()).count(0, 0.25, 1, 0.85, is_grey);
+  CHECK(n_grey > 5000);
+  CHECK(drawn_sphere(scratch, far, small_picture()).count(0, 0.25, 1, 0.85, is_grey) == n_grey);
+}
+
 TEST_CASE("the surface of an ensemble is pale where its difference is not significant") {
   if (!can_draw()) return;
   const ScratchFolder scratch;

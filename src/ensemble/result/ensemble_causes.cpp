@@ -45,8 +45,8 @@ std::vector<double> areas_of_patch(const std::string& name, const EnsembleFile& 
   throw InputError(option("causes", "patch " + name) + ": there is no such patch; " +
                    std::to_string(result.patches.size()) +
                    " were found significant (patch 1 is the first of the "
-                   "table), and others are named by " +
-                   option("patch", name + "=SELECTION"));
+                   "table), and others are selections that are named by " +
+                   option("patch"));
 }
 
 /// Means over the frames of each replicate.

@@ -247,7 +247,7 @@ TEST_CASE("causes: what has none is refused in one line") {
   CHECK(contains(refused("--side-chains few --causes whole"),
                  "--side-chains: 'few' is not a whole number from 0 to 1000000"));
   CHECK(contains(refused("--causes region"), "--causes region needs a region: give --region or --region-within"));
-  CHECK(contains(refused("--causes 'patch site'"), "there is no patch of that name; give --patch site=SELECTION"));
+  CHECK(contains(refused("--causes 'patch site'"), "there is no patch of that name; name a selection site by --patch"));
   CHECK(contains(refused("--causes 'residue B:3'"), "has no such residue"));
   CHECK(contains(refused("--potential pb --pb nonlinear --causes whole"),
                  "with the nonlinear Poisson-Boltzmann equation: its potential is not a sum over charges"));

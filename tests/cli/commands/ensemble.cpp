@@ -130,8 +130,8 @@ TEST_CASE("the mutant's charge makes the difference of a patch, fixed or found, 
   CHECK(contains(refused("--causes whole"),
                  "--causes whole: an ensemble's causes are of a patch; give --causes 'patch NAME'"));
   CHECK(contains(refused("--scan --causes 'patch 1'"), "--scan is of one pair, not of an ensemble"));
-  CHECK(
-      contains(refused("--causes 'patch lid'"), "--causes 'patch lid': there is no patch of that name; give --patch"));
+  CHECK(contains(refused("--causes 'patch lid'"),
+                 "--causes 'patch lid': there is no patch of that name; name a selection lid by --patch"));
 }
 
 TEST_CASE("a complete file gets causes: its frames are read again, and must be those that were mapped") {

@@ -87,8 +87,10 @@ test "a cause that the table leaves out is highlighted with its partner" {
     dict for {item cause} $::espdiff::gui::cause_rows {
         if {[dict get $cause place source] ne "" && [dict get $cause place target] ne ""} break
     }
+    set rotation [molinfo $source get rotate_matrix]
     $causes selection set $item
     update
+    check "the view is rotated to it" {[molinfo $source get rotate_matrix] ne $rotation}
     set number [dict get $cause number]
     check_equal "in the source" [lindex [highlighted $source] 0 2] $number
     check_equal "in the target" [lreplace [lindex [highlighted $target] 0] 1 1] [list B [expr {$number + 1}]]
