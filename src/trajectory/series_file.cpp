@@ -187,10 +187,8 @@ SeriesState read_series_state(const std::string& path, const std::string& finger
     const Json json = parse_cbor(bytes, path);
     if (json.at("format") != kFormat) throw damaged(path);
     if (json.at("version") != kStateVersion) throw other_version;
-    const auto found = json.at("fingerprint").get<std::string>();
-    if (found != fingerprint)
-      throw InputError(path + ": the saved state is of another run (" + found + " instead of " + fingerprint +
-                       "); delete it, and the run starts from the source");
+    if (json.at("fingerprint") != fingerprint)
+      throw InputError(path + ": the saved state is of another run; delete it, and the run starts from the source");
     const Bytes& content = json.at("state").get_binary();
     if (hash_of(content) != json.at("sha256")) throw damaged(path);
     SeriesState state = state_of(parse_cbor({reinterpret_cast<const char*>(content.data()), content.size()}, path));

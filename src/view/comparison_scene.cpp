@@ -233,7 +233,8 @@ void ComparisonScene::fill_panels() {
     panel.renderer = vtkSmartPointer<vtkRenderer>::New();
     panel.renderer->SetViewport(panel.left, panel.bottom, panel.right, panel.top);
     panel.renderer->SetBackground(1, 1, 1);
-    // Sorts fragments by depth; otherwise translucent triangles would hide each other according to their order in the file.
+    // Sorts fragments by depth; otherwise translucent triangles would hide each other according to their order in the
+    // file.
     panel.renderer->UseDepthPeelingOn();
     panel.renderer->SetMaximumNumberOfPeels(16);
     panel.renderer->SetOcclusionRatio(0);

@@ -157,7 +157,9 @@ std::optional<std::string> merged_ensemble(const std::vector<std::string>&, cons
 }
 std::optional<nlohmann::ordered_json> ensemble_result(const std::string&, const Object&) { return std::nullopt; }
 std::optional<std::string> ensemble_table(const std::string&, const Object&) { return std::nullopt; }
-std::optional<DrawnSurface> ensemble_surface(const std::string&, const Object&, int) { return std::nullopt; }
+std::optional<DrawnSurface> ensemble_surface(const std::string&, const Object&, const std::string&, int) {
+  return std::nullopt;
+}
 std::optional<VertexQuantity> ensemble_quantity(const std::string&, const Object&, const std::string&) {
   return std::nullopt;
 }

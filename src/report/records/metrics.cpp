@@ -15,6 +15,7 @@
 #include "base/not_a_number.h"
 #include "certificate/region_result.h"
 #include "certificate/result.h"
+#include "engine/potential_sums.h"
 #include "field/field_kinds.h"
 #include "options/input_settings.h"
 #include "options/options.h"
@@ -608,12 +609,8 @@ std::string formatted(const Metric& metric, double value) {
 
 Metrics counted_metrics(const CompareResult& result) {
   if (result.has_potential) return result.metrics;
-  using M = Metrics;
-  Metrics counted;
-  for (double M::*const of_potentials :
-       {&M::mean_abs_difference, &M::rms_difference, &M::mean_signed_difference, &M::sign_change_area_fraction,
-        &M::hodgkin_index, &M::carbo_index, &M::correlation})
-    counted.*of_potentials = kNaN;
+  Metrics counted = PotentialSums().metrics();  // without area, all of potentials are NaN
+  counted.mean_displacement_A = counted.mean_path_length_A = 0;
   for (const ResidueRow& row : result.residues) {
     if (!(row.area_A2 > 0)) continue;
     counted.area_A2 += row.area_A2;
