@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "cli/options.h"
 #include "cli/output_prefix.h"
 #include "io/files/atomic_file.h"
 #include "io/text/text_cursor.h"
