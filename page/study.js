@@ -55,7 +55,8 @@
     legend(of);
   }
 
-  const width = 640, left = 56;
+  // In units of the screen's pixels, so that a phone's texts have their size.
+  const width = Math.max(320, Math.min(640, byId('plot').clientWidth)), left = 56;
   const xOf = (i) => left + (n > 1 ? i / (n - 1) : 0.5) * (width - left - 12);
   function frameAt(svg, event) {
     const box = svg.getBoundingClientRect(), x = (event.clientX - box.left) / box.width * width;
@@ -67,7 +68,7 @@
     const height = 220, bottom = height - 34, finite = values.filter((v) => isFinite(v));
     const svg = picture(holder, width, height, label + ' along the frames');
     const low = Math.min(0, ...finite), high = Math.max(...finite, low + 1e-9);
-    const yOf = (v) => bottom - (v - low) / (high - low) * (bottom - 14);
+    const yOf = (v) => bottom - (v - low) / (high - low) * (bottom - 20);
     for (const v of [low, (low + high) / 2, high]) {
       draw(svg, 'line', { x1: left, x2: width - 12, y1: yOf(v), y2: yOf(v), class: 'grid' });
       draw(svg, 'text', { x: left - 6, y: yOf(v) + 4, 'text-anchor': 'end' }, shown(v));
@@ -80,7 +81,7 @@
     values.forEach((v, i) => { if (isFinite(v)) path += (path && isFinite(values[i - 1]) ? 'L' : 'M') + xOf(i).toFixed(1) + ' ' + yOf(v).toFixed(1); });
     draw(svg, 'path', { d: path, class: 'line' });
     if (n <= 500) values.forEach((v, i) => { if (isFinite(v)) draw(svg, 'circle', { cx: xOf(i), cy: yOf(v), r: 3, class: record.trust[i] === false ? 'point doubt' : 'point' }); });
-    if (picked >= 0) draw(svg, 'line', { x1: xOf(picked), x2: xOf(picked), y1: 14, y2: bottom, class: 'mark' });
+    if (picked >= 0) draw(svg, 'line', { x1: xOf(picked), x2: xOf(picked), y1: 20, y2: bottom, class: 'mark' });
     svg.onclick = (event) => pick(frameAt(svg, event));
   }
 
@@ -100,7 +101,8 @@
       pickedResidue = Math.min(names.length - 1, Math.floor((event.clientY - box.top) / box.height * names.length));
       pick(Math.min(n - 1, Math.floor((event.clientX - box.left) / box.width * n)));
     };
-    add(holder, 'p', names[0] + ' above, ' + names[names.length - 1] + ' below; colours from ' + (of.signed ? -of.range : 0) + ' to ' + of.range + '.', 'help');
+    add(holder, 'p', names[0] + ' above, ' + names[names.length - 1] + ' below; colours from ' + (of.signed ? -of.range : 0) + ' to ' + of.range +
+      (residues.some(isNaN) ? '; grey: no value' : '') + '.', 'help');
     if (pickedResidue >= 0) drawLine(add(holder, 'div'), names[pickedResidue], '', Array.from(residues.subarray(pickedResidue * n, (pickedResidue + 1) * n)));
   }
 

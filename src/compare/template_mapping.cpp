@@ -15,6 +15,7 @@
 #include "certificate/trusted_area.h"
 #include "compare/compare_fields.h"
 #include "compare/mapped_step.h"
+#include "compare/readings.h"
 #include "engine/engine.h"
 #include "engine/morph_stage.h"
 #include "field/field_kinds.h"

@@ -16,6 +16,7 @@
 #include "matrix/write_matrix.h"
 #include "options/input_settings.h"
 #include "options/options.h"
+#include "options/settings.h"
 
 namespace espdiff {
 namespace {

@@ -282,7 +282,7 @@ std::vector<Setting> make_settings() {
   all.push_back(Rows::boolean(
       "leave-out-turned", "Verdict", [](auto& o) -> auto& { return o.leave_out_turned; },
       "Do not trust side chains that turned about their bonds where the mapping puts a point farther than 3 A, instead "
-      "of 7 A, from where its atoms went: there the residue is right, but not its face. Of NMR models half of the "
+      "of 8 A, from where its atoms went: there the residue is right, but not its face. Of NMR models half of the "
       "surface is left"));
   add_surface_settings(all);
   add_mapping_settings(all);

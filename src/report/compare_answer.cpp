@@ -35,7 +35,7 @@ void print_brief_verdict(std::ostream& out, const Record& record) {
 /// Label, number with unit, and what belongs to it.
 void print_brief_number(std::ostream& out, const std::string& label, const std::string& value,
                         const std::string& beside) {
-  out << padded(label, kLabelWidth) << (beside.empty() ? value : padded(value + "  ", kValueWidth) + beside) << '\n';
+  out << padded(label, kLabelWidth) << (beside.empty() ? value : padded(value + " ", kValueWidth) + beside) << '\n';
 }
 
 std::string number_with_unit(const Metric& metric, double value, const std::string& potential_unit) {

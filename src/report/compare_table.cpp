@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "align/geometry/rigid_domains.h"
 #include "base/formatted.h"
 #include "base/text/short_numbers.h"
 #include "certificate/trusted_area.h"

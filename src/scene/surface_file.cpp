@@ -12,6 +12,7 @@
 #include "io/files/read_input.h"
 #include "io/text/text_cursor.h"
 #include "io/vtk/read_vtp.h"
+#include "scene/reasons.h"
 
 namespace espdiff {
 namespace {

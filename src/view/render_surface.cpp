@@ -1,6 +1,8 @@
 // render_surface.cpp: draws a scene at twice the size, averages, and writes the PNG.
 #include "view/render_surface.h"
 
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
 #include <vtkImageData.h>
 #include <vtkRenderWindow.h>
 
@@ -8,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "base/progress.h"
 #include "base/version.h"
 #include "io/files/atomic_file.h"
 #include "io/files/check_outputs.h"
@@ -74,6 +77,19 @@ std::vector<std::string> notes_on(const ComparisonFiles& files, const Scene& sce
   return notes;
 }
 
+/// Draws. Between the parts of the scene the window asks whether to go on.
+/// @throws Cancelled
+void draw(vtkRenderWindow* window) {
+  vtkNew<vtkCallbackCommand> ask;
+  ask->SetCallback([](vtkObject* drawing, unsigned long, void*, void*) {
+    if (CancelRequest().made()) vtkRenderWindow::SafeDownCast(drawing)->SetAbortRender(1);
+  });
+  const unsigned long observer = window->AddObserver(vtkCommand::AbortCheckEvent, ask);
+  window->Render();
+  window->RemoveObserver(observer);
+  CancelRequest().check();
+}
+
 }  // namespace
 
 std::vector<std::string> render_surface(const std::string& vtp_path, const std::string& png_path, const Scene& scene,
@@ -86,13 +102,18 @@ std::vector<std::string> render_comparison(const ComparisonFiles& files, const s
                                            const Scene& scene, AtomicFile* beside) {
   check_outputs(files_of(files), {png_path, beside != nullptr ? beside->path() : std::string()});
   AtomicFile file(png_path);  // before drawing, to find an unwritable output early
+  const CancelRequest cancel;
+  cancel.check();
   ComparisonScene drawn(files, scene);
+  cancel.check();
   const vtkSmartPointer<vtkRenderWindow> window = make_hidden_window();
   const VtkMessages messages;
   window->SetSize(scene.width * kOversampling, scene.height * kOversampling);
   drawn.add_to(window, kOversampling);
-  window->Render();
+  cancel.check();
+  draw(window);
   vtkNew<vtkImageData> image = grab_picture(window, scene.width, scene.height, kOversampling, messages);
+  cancel.check();
   const PictureTexts texts = {{"Title", scene.title},
                               {"Software", std::string("espdiff ") + kVersion},
                               {"Source", std::filesystem::path(files.surface.path).filename().string()},
@@ -100,6 +121,7 @@ std::vector<std::string> render_comparison(const ComparisonFiles& files, const s
                               {"Inputs", inputs(files.record)},
                               {"Scene", scene_json(scene)}};
   const std::string png = encode_png(image, texts, png_path);
+  cancel.check();
   file.stream().write(png.data(), static_cast<std::streamsize>(png.size()));
   std::vector<AtomicFile*> all = {&file};
   if (beside != nullptr) all.push_back(beside);

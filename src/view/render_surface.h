@@ -19,7 +19,7 @@ class AtomicFile;
 /// @returns notes for the user: why values are not looked up, or that the result is not trustworthy
 /// @throws InputError (the picture would replace a file of the comparison; scene out of range; array missing or without
 /// a value; OUT.json missing although needed), IoError (file missing, output unwritable), FormatError (a file is
-/// damaged or of another kind), DeviceError (no X display; says how to get one)
+/// damaged or of another kind), DeviceError (no X display; says how to get one), Cancelled (nothing is written)
 ///
 /// Cost: about 2 s at the default size by software OpenGL. Same machine and OpenGL driver: same pixels. `beside`, where
 /// given, is complete and gets its name together with the picture.

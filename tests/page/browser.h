@@ -12,9 +12,10 @@
 namespace espdiff_test {
 
 /// The document after `acts`, a script that runs when the page is ready and leaves what it sees in the root's
-/// `data-seen`; nothing (after a line with SKIPPED) without Chromium. `data-failed` has errors of any script.
+/// `data-seen`; nothing (after a line with SKIPPED) without Chromium. `data-failed` has errors of any script. The
+/// window is `width` pixels wide.
 inline std::optional<std::string> shown_in_browser(std::string page, const std::string& acts,
-                                                   const ScratchFolder& folder) {
+                                                   const ScratchFolder& folder, int width = 800) {
   if (std::system("command -v chromium >/dev/null") != 0) {
     MESSAGE("SKIPPED: chromium is not installed");
     return std::nullopt;
@@ -27,8 +28,9 @@ inline std::optional<std::string> shown_in_browser(std::string page, const std::
   folder.write("page.html", page);
   const std::string command =
       "chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader "
-      "--enable-unsafe-swiftshader --virtual-time-budget=20000 --dump-dom file://" +
-      folder.file("page.html") + " 2>/dev/null >" + folder.file("dom");
+      "--enable-unsafe-swiftshader --virtual-time-budget=20000 --window-size=" +
+      std::to_string(width) + ",600 --dump-dom file://" + folder.file("page.html") + " 2>/dev/null >" +
+      folder.file("dom");
   REQUIRE(std::system(command.c_str()) == 0);
   return read_file(folder.file("dom"));
 }

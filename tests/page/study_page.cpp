@@ -107,9 +107,11 @@ TEST_CASE("a click in a browser selects a pair, and a frame with a residue") {
       "const map = document.querySelector('#residues canvas'), box = map.getBoundingClientRect(); "
       "map.dispatchEvent(new MouseEvent('click', {clientX: box.left + 0.9 * box.width, clientY: box.top + 1})); "
       "document.documentElement.dataset.seen = [document.getElementById('chosen').textContent, "
-      "document.querySelectorAll('svg').length, document.getElementById('picked').textContent.includes('A:ALA 1')]"
-      ".join('|');",
-      study.folder);
+      "document.querySelectorAll('svg').length, document.getElementById('picked').textContent.includes('A:ALA 1'), "
+      "[...document.querySelectorAll('svg')].every((plot) => "
+      "plot.getBoundingClientRect().width > 0.99 * plot.viewBox.baseVal.width)].join('|');",
+      study.folder, 500);
   REQUIRE(frames);
-  CHECK_MESSAGE(contains(*frames, "data-seen=\"Frame 2|2|true\""), frames->substr(0, 400));
+  // The last: texts of the plots are not smaller than those around them.
+  CHECK_MESSAGE(contains(*frames, "data-seen=\"Frame 2|2|true|true\""), frames->substr(0, 400));
 }

@@ -21,6 +21,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "base/vector.h"
 #include "support/test_data.h"
 #include "view/decoded_picture.h"
@@ -195,6 +196,17 @@ TEST_CASE("large displacements and corrupt triangles are paler than trusted part
   CHECK(faint.count(0, 0.25, 1, 0.9, [](int r, int g, int b) { return !is_white(r, g, b); }) > 5000);
   const Picture grey = drawn_sphere(scratch, corrupt, small_picture());
   CHECK(grey.count(0, 0.25, 1, 0.9, [](int r, int g, int b) { return r != g || g != b; }) == 0);
+}
+
+TEST_CASE("a request to cancel ends a drawing, and leaves nothing") {
+  if (!can_draw()) return;
+  const ScratchFolder scratch;
+  const std::string surface = write_sphere(scratch.file("surface.vtp"), {});
+  espdiff::Progress progress;
+  const espdiff::CancelScope scope(progress);
+  progress.request_cancel();
+  CHECK_THROWS_AS(render_surface(surface, scratch.file("picture.png"), small_picture()), espdiff::Cancelled);
+  CHECK(scratch.n_files() == 1);
 }
 
 TEST_CASE("what is not trusted has one grey, however far it slipped") {

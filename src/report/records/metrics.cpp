@@ -187,7 +187,7 @@ std::vector<Metric> make_metrics() {
        not_trusted<Why::kOtherResidue>, "/certificate/not_trusted/other_residue", "  or for its place", "off residue"},
       {"untrusted_turned", "Not trusted, turned", S::kCertificate, U::kFraction, kNowhere,
        "Share of the source's surface on residues that turned as a whole, farther than 3 A from where their atoms "
-       "went, and on side chains that turned, farther than 7 A (3 A with leave-out-turned)",
+       "went, and on side chains that turned, farther than 8 A (3 A with leave-out-turned)",
        not_trusted<Why::kTurned>, "/certificate/not_trusted/turned", "  or for its place", "turned"},
       {"untrusted_disagrees", "Not trusted, disagrees", S::kCertificate, U::kFraction, kNowhere,
        "Share of the source's surface of residues whose difference is not that of their own surfaces",
