@@ -14,6 +14,8 @@ make_debian_root() {
     chmod 755 "$root"  # apt fetches as a user of its own
     mkdir -p "$root/etc/apt/apt.conf.d"
     echo 'Acquire::Languages "none";' >"$root/etc/apt/apt.conf.d/90no-translations"
+    mkdir -p "$root/etc/dpkg/dpkg.cfg.d"
+    echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/90no-syncs"  # a machine that loses power makes the root anew
   fi
   # Where names are looked up and which certificates hold are this machine's affair.
   cp -L /etc/resolv.conf "$root/etc/resolv.conf"

@@ -15,7 +15,8 @@ namespace eval ::espdiff {
             set name [dict get $setting name]
             if {$name eq "field" && [dict exists $values $name]} {
                 dict set values $name [join [named_list -$name {NAME KIND} [dict get $values $name] {name kind} {
-                    return $name=[expr {$kind eq "" ? $name : $kind}]
+                    if {$kind eq ""} { return $name=$name }  ;# not `expr`, which makes 8 of a name 010
+                    return $name=$kind
                 }] |]
             } elseif {[dict get $setting kind] eq "named" && [dict exists $values $name]} {
                 dict set values $name [join [named_list -$name {NAME SELECTION} [dict get $values $name] {name selection} {
@@ -126,6 +127,9 @@ namespace eval ::espdiff {
 
     proc export {options handle prefix} {
         require_core_handle $handle
+        if {$prefix eq "" || [string match */ $prefix]} {
+            fail "espdiff export: '$prefix' names no file; give a prefix, such as ${prefix}wild_mutant"
+        }
         return [core::export $handle $prefix [dict get $options inputs]]
     }
 

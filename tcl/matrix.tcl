@@ -11,7 +11,7 @@ namespace eval ::espdiff {
 
     proc merge {options states} {
         set paths {}
-        foreach path $states { lappend paths [existing_file $path "espdiff merge"] }
+        foreach path [list_of $states "espdiff merge"] { lappend paths [existing_file $path "espdiff merge"] }
         set core [dict create output [file normalize [dict get $options output]]]
         foreach key {overwrite cluster-by} { dict set core [string map {- _} $key] [dict get $options $key] }
         return [core::merge $paths $core]

@@ -181,8 +181,9 @@ namespace eval ::espdiff {
             command { set valid [string is list $value] }
             named {
                 # A field may go by its kind's name.
-                if {$name eq "-field" && [llength $value] == 1} { lappend value {} }
-                set valid [expr {[string is list $value] && [llength $value] % 2 == 0}]
+                set valid [string is list $value]
+                if {$valid && $name eq "-field" && [llength $value] == 1} { lappend value {} }
+                if {$valid} { set valid [expr {[llength $value] % 2 == 0}] }
             }
             device { set valid [regexp {^(auto|cpu|cuda(:[0-9]{1,4})?)$} $value] }
             choice {
@@ -193,6 +194,12 @@ namespace eval ::espdiff {
         }
         if {!$valid} { fail "[spelled [string range $name 1 end]]: '$value' is not [accepted_values $option]" }
         return $value
+    }
+
+    # The text as it is, once it can be read as a list.
+    proc list_of {text what} {
+        if {![string is list $text]} { fail "$what: '$text' is not a list (a brace or quote in it has no partner)" }
+        return $text
     }
 
     # Pairs of words, each made into one word of the core by `body`.

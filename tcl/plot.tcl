@@ -169,7 +169,8 @@ namespace eval ::espdiff {
         lassign [dict get $plot_clicks $number] callback mol positions names
         set name [lindex $names [lsearch -exact -real $positions $x]]
         if {$callback ne ""} {
-            call_user $callback [expr {$names eq "" ? $x : $name}] $y
+            if {$names eq ""} { set name $x }  ;# not by `expr`, which makes 8 of a label 010
+            call_user $callback $name $y
         } elseif {$names eq "" && $mol ne "none" && [in_vmd]} {
             molinfo [vmd_molecule_id $mol -mol] set frame [expr {int($x)}]
         }

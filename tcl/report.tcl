@@ -7,9 +7,10 @@ namespace eval ::espdiff {
         set folder [temporary_folder]
         finally {
             set surfaces {}
-            foreach other [dict get $options range-of] { lappend surfaces [result_prefix $folder $other].vtp }
+            foreach other [list_of [dict get $options range-of] "espdiff report: -range-of"] { lappend surfaces [result_prefix $folder $other].vtp }
             set prefix [result_prefix $folder $result]
-            if {$path eq ""} { set path [expr {[string match $folder* $prefix] ? $result : $prefix}].html }
+            # Not `expr`, which makes 8 of a result's name 010.
+            if {$path eq ""} { if {[string match $folder* $prefix]} { set path $result.html } else { set path $prefix.html } }
             core::report $prefix $path [dict get $options title] $surfaces
         } { file delete -force $folder }
         return $path
@@ -41,7 +42,7 @@ namespace eval ::espdiff {
     # What -range and -range-of of a drawing say about a quantity: {LOW HIGH}, or auto.
     proc shared_range {options handle color} {
         set range [dict get $options range]
-        set others [dict get $options range-of]
+        set others [list_of [dict get $options range-of] "espdiff draw: -range-of"]
         if {$range ne "auto" || [llength $others] == 0} { return $range }
         set unit [dict get [core::range $handle $color] unit]
         set widest [drawn_range $handle $color auto]

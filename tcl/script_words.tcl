@@ -15,7 +15,8 @@ namespace eval ::espdiff {
 
     # Names that are no files (of the web) stay.
     proc full_name {path} {
-        expr {[file exists $path] ? [file normalize $path] : $path}
+        if {[file exists $path]} { return [file normalize $path] }
+        return $path  ;# not by `expr`, which makes 8 of a name 010
     }
 
     # A molecule's word of `names`, a dict by id; otherwise its id.

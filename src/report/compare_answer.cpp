@@ -35,8 +35,7 @@ void print_brief_verdict(std::ostream& out, const Record& record) {
 /// Label, number with unit, and what belongs to it.
 void print_brief_number(std::ostream& out, const std::string& label, const std::string& value,
                         const std::string& beside) {
-  const std::string line = padded(label, kLabelWidth) + padded(value, beside.empty() ? 0 : kValueWidth) + beside;
-  out << line << '\n';
+  out << padded(label, kLabelWidth) << (beside.empty() ? value : padded(value + " ", kValueWidth) + beside) << '\n';
 }
 
 std::string number_with_unit(const Metric& metric, double value, const std::string& potential_unit) {

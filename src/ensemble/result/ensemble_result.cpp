@@ -396,7 +396,7 @@ struct Analysis {
       result.warnings.push_back(formatted(
           "only %.0f %% of the template's area is tested: the rest is not trusted in more than %.0f %% of a group's "
           "frames",
-          100 * result.tested_share(), 100 * result.options.most_missing));
+          std::floor(100 * result.tested_share()), 100 * result.options.most_missing));
   }
 };
 

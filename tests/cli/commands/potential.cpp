@@ -225,7 +225,7 @@ TEST_CASE("vacuum is named wherever its numbers are") {
                                       " --device cpu --potential coulomb");
   REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
   CHECK(contains(outcome.out, "vacuum (Coulomb)"));
-  CHECK(contains(outcome.out, " kT/e in vacuum "));
+  CHECK_MESSAGE(contains(outcome.out, " kT/e in vacuum  whole surface: "), outcome.out);
   CHECK(contains(read_file(folder.file("out.json")), "\"potential_unit\": \"kT/e in vacuum\""));
   CHECK(contains(read_file(folder.file("out.residues.csv")), "mean_source [kT/e in vacuum]"));
 }
