@@ -292,7 +292,7 @@ TEST_CASE("a state of another series, or a damaged one, is refused with the reme
   CHECK(espdiff::read_series_state(path, "run 1").mapped.size() == 10);
   CHECK(message_of([&] {
           espdiff::read_series_state(path, "run 2");
-        }).find("of another run (run 1 instead of run 2)") != std::string::npos);
+        }).find("is of another run; delete it, and the run starts from the source") != std::string::npos);
   CHECK(message_of([&] {
           espdiff::read_series_state(folder.file("absent"), "run 1");
         }).find("starts from the source") != std::string::npos);
