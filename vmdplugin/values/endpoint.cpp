@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/vector.h"
 #include "field/given_values.h"
+#include "io/grids/read_dx.h"
 #include "io/grids/read_grid.h"
 #include "io/molecules/molecule_builder.h"
 #include "potential/potential.h"
