@@ -172,7 +172,7 @@ TEST_CASE("rooms include only rooms below them") {
   int n_files = 0, n_includes = 0;
   for (const auto& [room, allowed] : kAllowed) {
     const fs::path folder = fs::is_directory(root / "src" / room) ? root / "src" / room : root / room;
-    CHECK_MESSAGE(fs::is_directory(folder), room);
+    CHECK_MESSAGE(fs::is_directory(folder), folder.string());
     for (const auto& entry : fs::directory_iterator(folder)) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".h" && extension != ".cpp" && extension != ".cu") continue;

@@ -126,7 +126,8 @@ TEST_CASE("a signal while files get their names comes too late: they are there, 
         std::pair{"compare a.pqr m3.pqr -o out", "out.vtp"}}) {
     const Outcome outcome = in.run(std::string(arguments) + " --overwrite", fault);
     CHECK_MESSAGE(!contains(outcome.err, "cancelled"), outcome.err);
-    CHECK_MESSAGE(in.files().count(file) == 1, arguments);
+    const std::string missing = std::string("no ") + file;
+    CHECK_MESSAGE(in.files().count(file) == 1, missing);
   }
 }
 
