@@ -19,9 +19,8 @@ const std::vector<OptionRow<TrajectoryRequest>>& trajectory_settings() {
           "start", group, {{"auto", std::nullopt}, {"previous", StartFrom::kPrevious}, {"source", StartFrom::kSource}},
           [](auto& o) -> auto& { return o.start; },
           "Begin each frame's mapping at the source, or at the previous frame's where that is nearer (by the morph "
-          "less "
-          "than half as far, with at most 0.5 % of the source unmatched on the way): small steps, in less time; auto: "
-          "source by the method morph, previous by deform"),
+          "less than half as far, with at most 0.5 % of the source unmatched on the way): small steps, in less time; "
+          "auto: source by the method morph, previous by deform"),
       Rows::file(
           "residues", group, [](auto& o) -> auto& { return o.residues; },
           "CSV file that gets one value of each residue of the source for each frame: a row a frame"),
