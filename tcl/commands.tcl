@@ -14,6 +14,8 @@ namespace eval ::espdiff {
         {-command command {} "Compute in the background, and call CMD handle from the event loop at the end"}
     }
 
+    variable replacing {{-overwrite boolean 0 "Replace files that are there"}}
+
     command compare [dict create arguments {source target} options $computing settings all run ::espdiff::compare \
         summary {Maps the surface of the source onto that of the target, compares the potentials at corresponding
             points, and certifies the mapping. Source and target are endpoints. Without maps the potentials are
@@ -21,11 +23,11 @@ namespace eval ::espdiff {
         returns {a handle, such as comparison1. With -command at once, otherwise when the comparison is done} \
         example {espdiff compare {file wild.pqr map wild.dx} {file mutant.pqr map mutant.dx} -grid-spacing 0.8}]
 
-    command prepare [dict create arguments {molecule} settings preparation run ::espdiff::prepare options {
+    command prepare [dict create arguments {molecule} settings preparation run ::espdiff::prepare options [concat {
             {-pqr file required "PQR file to write: atoms with hydrogens, charges and radii"}
             {-progress command {} "Called as CMD stage fraction (0 to 1) about 20 times a second; `break` from it cancels"}
             {-command command {} "Prepare in the background, and call CMD handle from the event loop at the end"}
-        } \
+        } $replacing] \
         summary {Adds hydrogens, charges and radii to a molecule (an endpoint) by PDB2PQR, a program, with PROPKA's
             protonation states. Structures in files get the same wherever a potential is computed from them. Of a
             molecule in VMD, one location of each atom counts.} \
@@ -53,32 +55,32 @@ namespace eval ::espdiff {
         summary {A comparison or a matrix as a readable table, as the command line prints it.} \
         returns {the text} example {puts [espdiff table comparison1]}]
 
-    command export [dict create arguments {handle prefix} settings none run ::espdiff::export options {
+    command export [dict create arguments {handle prefix} settings none run ::espdiff::export options [concat {
             {-inputs boolean 0 "For a comparison also its inputs: PREFIX.source.pqr and PREFIX.target.pqr as\
                 compared, and maps from VMD as PREFIX.source_map.vti and PREFIX.target_map.vti"}
-        } \
+        } $replacing] \
         summary {Writes PREFIX.json (numbers, certificate, provenance), PREFIX.vtp (mapped surface, for ParaView) and
             PREFIX.residues.csv; for a surface only PREFIX.vtp. All files appear together or not at all.} \
         returns {the files written} example {espdiff export comparison1 wild_mutant}]
 
-    command report [dict create arguments {result} settings none run ::espdiff::report options {
+    command report [dict create arguments {result} settings none run ::espdiff::report options [concat {
             {-output file {} "Page to write; default: the result's name with .html"}
             {-title text {} "Heading; default: the names of both structures or groups, or of the result"}
             {-range-of text {} "One scale for a study: other results, handles or prefixes, whose automatic ranges count\
                 too; the widest of all is taken"}
-        } \
+        } $replacing] \
         summary {Writes a result as one page for any browser, without network or other files: the surface to be turned,
             residues, numbers, verdict, provenance. The result is the handle of a comparison, matrix or ensemble, or the
             files of a result (prefix OUT, or OUT.csv of a trajectory).} \
         returns {the file} example {espdiff report comparison1 -output wild_mutant.html -title "Mutant"}]
 
-    command map [dict create arguments {handle} settings none run ::espdiff::map options {
+    command map [dict create arguments {handle} settings none run ::espdiff::map options [concat {
             {-quantity choice difference "Quantity of the map" {difference source target sign slip
                 displacement path_length}}
             {-spacing positive 1.0 "Distance of the lattice's points, Angstrom"}
             {-mol molecule {} "Add the map to this molecule of VMD, for `Color Volume` and Isosurface representations"}
             {-file file {} "Write the map to this DX file"}
-        } \
+        } $replacing] \
         summary {Writes a quantity of the mapped surface to a lattice around it. Give -mol or -file.} \
         returns {the number of the data set in the molecule, or the file} \
         example {espdiff map comparison1 -mol 1}]
@@ -96,7 +98,7 @@ namespace eval ::espdiff {
             {-file file {} "Instead of VMD: a PDB file of the source with the values as B factors"}
             {-show boolean 0 "Also colour the molecule's representations by the field, with a legend; 0 is in the middle\
                 of VMD's colour scale; `espdiff uncolor` restores their colours"}
-        }] \
+        } $replacing] \
         summary {Writes a quantity of the residues to their atoms, for colouring any representation
             (`Coloring Method` User or Beta), or to the B factors of a file for other programs. In the target's molecule
             a residue's value is on its partner.} \
@@ -173,11 +175,11 @@ namespace eval ::espdiff {
             ends. The viewer continues when VMD exits.} \
         returns {its process id} example {espdiff view comparison1 -layout linked}]
 
-    command figure [dict create arguments {handle file} settings none run ::espdiff::figure options {
+    command figure [dict create arguments {handle file} settings none run ::espdiff::figure options [concat {
             {-width count 1800 "Pixels, 400 to 6000; the height follows from the proportions of VMD's window"}
             {-molecule choice none "Draw the target too: none, cartoon, sticks or lines" {none cartoon sticks lines}}
             {-title text {} "Title above the picture"}
-        } \
+        } $replacing] \
         summary {Draws a comparison for print, as VMD shows it: VMD's camera, and the colours, range, fading and legend of the
             handle's drawing. It is drawn by espdiff's own renderer, which looks both maps up at every pixel, in a
             parallel projection.} \
@@ -247,7 +249,7 @@ namespace eval ::espdiff {
         returns {a list of dictionaries: patch area_A2 difference low high smallest_p peak_A residues} \
         example {foreach patch [espdiff patches ensemble1] { puts [dict get $patch area_A2] }}]
 
-    command plot [dict create arguments {input} settings none run ::espdiff::plot options {
+    command plot [dict create arguments {input} settings none run ::espdiff::plot options [concat {
             {-metrics text auto "Names of columns; auto is mean_abs_difference, or without potentials\
                 mean_displacement_A"}
             {-source text {} "For a matrix: label of the variant to draw against all others (the\
@@ -259,18 +261,17 @@ namespace eval ::espdiff {
                 value"}
             {-file file {} "Instead of VMD's windows: a picture, OUT.png or OUT.svg, drawn by gnuplot like the\
                 command line's `espdiff plot`; hollow points are not trustworthy"}
-        } \
+        } $replacing] \
         summary {Plots a trajectory (its CSV file or handle), or one variant of a matrix (its handle) against all
             others, in VMD's own plot windows (package multiplot), a window for each unit, or into a file. Heat maps
             are drawn by the command line's `espdiff plot`.} \
         returns {a list of multiplot's handles, or the file} \
         example {espdiff plot out.csv -metrics {mean_abs_difference rmsd_A}}]
 
-    command merge [dict create arguments {states} settings none run ::espdiff::merge options {
+    command merge [dict create arguments {states} settings none run ::espdiff::merge options [concat {
             {-output file required "Prefix of the results: OUT.csv and OUT.json, or OUT.h5"}
-            {-overwrite boolean 0 "Replace results that exist"}
             {-cluster-by text {} "Metric for clustering, as in `espdiff matrix`"}
-        } \
+        } $replacing] \
         summary {Merges the parts of a matrix: the state files of `espdiff matrix -shard`, with -template the HDF5 files
             too; or of an ensemble: the files
             of `espdiff ensemble -shard`, whose statistics `espdiff ensemble {} -from OUT.h5` computes. The results are
@@ -278,7 +279,7 @@ namespace eval ::espdiff {
         returns {the files written} \
         example {espdiff merge [glob part.shard-*.state] -output all}]
 
-    command potential [dict create arguments {} settings none run ::espdiff::potential options {
+    command potential [dict create arguments {} settings none run ::espdiff::potential options [concat {
             {-mol text top "Molecule of VMD"}
             {-sel text all "Atoms whose charges are included"}
             {-updatesel boolean 0 "Select again in each frame, instead of in the first only"}
@@ -301,7 +302,7 @@ namespace eval ::espdiff {
             {-device device auto "Where to compute: auto takes a GPU if one works, cuda:1 the second one"}
             {-threads count 0 "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it"}
             {-progress command {} "Called as CMD stage fraction; `break` from it cancels"}
-        } \
+        } $replacing] \
         summary {Computes the electrostatic potential of a molecule's charges, by PME in the cell of each frame, or its
             mean over frames. Needs VMD; options shared with PMEPot have its names and meanings. A comparison does
             not need this command: `map pme` computes the maps itself.} \

@@ -47,7 +47,7 @@ namespace eval ::espdiff {
         set temporary {}
         set handle [core::prepare [make_endpoint $endpoint molecule temporary] \
             [dict merge [setting_values $options] [dict create command_line $call]] \
-            [file normalize [dict get $options pqr]]]
+            [file normalize [dict get $options pqr]] [dict get $options overwrite]]
         begin_job $handle $options [dict create source_mol [mol_of_endpoint $endpoint]]
     }
 
@@ -130,7 +130,7 @@ namespace eval ::espdiff {
         if {$prefix eq "" || [string match */ $prefix]} {
             fail "espdiff export: '$prefix' names no file; give a prefix, such as ${prefix}wild_mutant"
         }
-        return [core::export $handle $prefix [dict get $options inputs]]
+        return [core::export $handle $prefix [dict get $options inputs] [dict get $options overwrite]]
     }
 
     proc version {options} { return [core::version] }

@@ -17,7 +17,7 @@ namespace eval ::espdiff {
             dict lappend plot trustworthy [expr {[value_or $row trustworthy 1] ne "0"}]
         }
         foreach column [plot_metrics $table $options] { dict lappend plot series [plot_line $table $column] }
-        core::check_outputs [value_or $table files {}] [list [file normalize [dict get $options file]]]
+        core::check_outputs [value_or $table files {}] [list [file normalize [dict get $options file]]] [dict get $options overwrite]
         return [core::plot_lines [file normalize [dict get $options file]] $plot]
     }
 
@@ -28,7 +28,7 @@ namespace eval ::espdiff {
             fail "espdiff plot: '$path' is a trajectory's table of residues, which is drawn into a file (-file OUT.png), or\
                 in the window's tab Trajectory"
         }
-        core::check_outputs [list $path] [list [file normalize $file]]
+        core::check_outputs [list $path] [list [file normalize $file]] [dict get $options overwrite]
         return [core::plot_residues [file normalize $file] $path]
     }
 

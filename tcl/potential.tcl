@@ -200,7 +200,8 @@ namespace eval ::espdiff {
         foreach average {variance error} {
             if {[dict get $options $average]} { lappend outputs [potential_file .$average $options] }
         }
-        core::check_outputs [concat [named_files [list mol $mol]] [list [dict get $options xscfile]]] $outputs
+        core::check_outputs [concat [named_files [list mol $mol]] [list [dict get $options xscfile]]] $outputs \
+            [dict get $options overwrite]
         set handle [core::potential [dict merge [potential_core_options $options] [list each $each]]]
         finally {
             set begun [clock milliseconds]

@@ -11,7 +11,7 @@ namespace eval ::espdiff {
             set prefix [result_prefix $folder $result]
             # Not `expr`, which makes 8 of a result's name 010.
             if {$path eq ""} { if {[string match $folder* $prefix]} { set path $result.html } else { set path $prefix.html } }
-            core::report $prefix $path [dict get $options title] $surfaces
+            core::report $prefix $path [dict get $options title] $surfaces [dict get $options overwrite]
         } { file delete -force $folder }
         return $path
     }
@@ -27,7 +27,7 @@ namespace eval ::espdiff {
         set kind [dict get [core::status $result] kind]
         if {$kind eq "comparison"} {
             set prefix [file join $folder $result]
-            core::export $result $prefix 0
+            core::export $result $prefix 0 1
             return $prefix
         }
         if {$kind in {matrix ensemble}} {

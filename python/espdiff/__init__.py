@@ -27,13 +27,15 @@ else:
     from ._ensembles import Ensemble, ensemble
     from ._inputs import state
     from ._functions import (
-        Series, compare, frames, help_options, matrix, merge, potential, prepare, status, surface)
+        Series, compare, frames, help_options, matrix, merge, potential, prepare, status, surface, trajectory)
     from ._reports import report
     from ._results import Certificate, Comparison, Matrix
     from ._saved import load
+    from ._tables import Trajectory
 
 __all__ = [
-    "Certificate", "Comparison", "Ensemble", "Map", "Matrix", "Series", "State", "Surface", "__version__", "compare",
+    "Certificate", "Comparison", "Ensemble", "Map", "Matrix", "Series", "State", "Surface", "Trajectory", "__version__", "compare",
     "ensemble", "frames", "help_options", "load", "matrix", "merge", "potential", "prepare", "report", "state", "status", "surface",
+    "trajectory",
 ]
 __all__ += _errors.__all__

@@ -14,11 +14,12 @@ from ._inputs import refuse_the_same_atoms, state_of, with_values
 from ._reports import table_beside
 from ._results import Comparison, Matrix
 from ._signatures import PREPARATION_GROUPS, as_text, option_rows, study_defaults, study_texts, takes_options
+from ._tables import Trajectory
 
 if typing.TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._options import MatrixOptions, Options
+    from ._options import MatrixOptions, Options, TrajectoryOptions
 
 
 def _as_settings(options):
@@ -275,6 +276,54 @@ class Series:
         state, = _with_arrays([state_of(target, "target")], [target], {n: [a] for n, a in arrays.items()}, ["target"])
         with _Progress(progress, "compare") as listener:
             return Comparison(self._series.step(state, listener))
+
+
+def _map_file(name, given, unit):
+    """(path, unit) of one map for all frames."""
+    if unit is not None:
+        unit = _checks.text(name + "_unit", unit)
+    return (_checks.path(name, given) if given is not None else "", unit or "")
+
+
+@takes_options(besides=study_defaults("trajectory"))
+def trajectory(source, files, csv, *, reference: str = "source", source_frames=None, frames_of=None, source_model: int = 1,
+               plugins="", potential: str = "auto", pme_cell: str = "auto", source_map=None, target_map=None,
+               source_map_unit=None, target_map_unit=None, device: str = "auto", threads: int = 0, progress=None,
+               **options: Unpack[TrajectoryOptions]) -> Trajectory:
+    """Compares each frame of files with one structure: a row for each frame, as `espdiff trajectory` writes them.
+
+    source: path of a structure, or of a topology, which is then compared in the first frame's coordinates.
+    files: paths of structures with models, or of trajectories that VMD reads; one, or a list.
+    csv: table that gets a row for each frame; with `resume` an interrupted run continues.
+    reference: source, or previous for the frame before. source_frames: paths; frame i is compared with frame i of these.
+    frames_of: a structure or topology of the frames' own atoms, charges and radii. source_map, target_map: paths.
+    For states that are no files, and whole results, see Series.
+
+    Returns a Trajectory: result (numbers of rows), columns, to_frame(). A resumed run that cannot continue the previous
+    mapping says so in a warning.
+    """
+    potential, pme_cell, device, threads = _checks.computation(potential, device, threads, pme_cell, progress)
+    if reference not in ("source", "previous"):
+        raise _core.InputError(f"reference: {reference!r} is not source or previous")
+    own = {name: options.pop(name) for name in study_defaults("trajectory") if name in options}
+    paths = {name: [_checks.path(name, path) for path in ([given] if isinstance(given, (str, os.PathLike)) else
+                                                          _checks.several(name, given, "paths"))]
+             for name, given in (("files", files), ("source_frames", source_frames or []))}
+    if not paths["files"]:
+        raise _core.InputError("files: name one trajectory or more")
+    order = {"source": _checks.path("source", source), "source_model": _checks.whole("source_model", source_model, 1),
+             "frames": paths["files"], "frames_of": _checks.path("frames_of", frames_of or ""),
+             "source_frames": paths["source_frames"], "reference": reference, "plugins": _checks.path("plugins", plugins),
+             "source_map": _map_file("source_map", source_map, source_map_unit),
+             "target_map": _map_file("target_map", target_map, target_map_unit), "potential": potential,
+             "pme_cell": pme_cell, "device": device, "threads": threads, "settings": _as_settings(options),
+             "options": study_texts("trajectory", own), "csv": _checks.prefix("csv", csv)}
+    with _Progress(progress, "trajectory") as listener:
+        summary = _core.trajectory(order, listener)
+    told = summary.pop("warning")
+    if told:
+        warnings.warn(told, stacklevel=2)
+    return Trajectory({**summary, "csv": order["csv"]})
 
 
 def frames(topology, *files, plugins=""):

@@ -122,6 +122,19 @@ class MatrixOptions(Options, total=False):
     shard: str
 
 
+class TrajectoryOptions(Options, total=False):
+    """The same of trajectory()."""
+
+    frames: str
+    # auto, previous, source
+    start: str
+    residues: str
+    residue_quantity: str
+    resume: bool
+    overwrite: bool
+    skip_errors: bool
+
+
 class EnsembleOptions(Options, total=False):
     """The same of ensemble()."""
 

@@ -16,7 +16,7 @@ _TYPES = {"number": float, "integer": int, "boolean": bool, "choice": str, "text
           "named": dict}
 PLURALS = {"patch": "patches", "field": "fields"}  # of options that may be given several times, under names
 PREPARATION_GROUPS = ("Structures", "Charges")
-# Options of matrix() and ensemble() whose name on the command line is a word of Python's, or whose two words are a switch.
+# Options of these functions whose name on the command line is a word of Python's, or whose two words are a switch.
 STUDY_NAMES = {"from": "from_file", "on-error": "skip_errors"}
 
 
@@ -38,7 +38,7 @@ def _default(row):
 
 
 def study_rows(study):
-    """The rows of the options that "matrix" or "ensemble" has besides those of compare(), under their Python names."""
+    """The rows of the options that "matrix", "trajectory" or "ensemble" has besides those of compare(), under their Python names."""
     rows = []
     for row in _core.study_settings(study):
         if row["name"] == "on-error":
@@ -128,7 +128,7 @@ def typed_options():
                           "What **options of compare() and its like stands for; `espdiff.help_options()` explains them.",
                           option_rows())
     groups = [{"name": name, "kind": "named"} for name in ("charges", "maps")]
-    for study, besides in (("matrix", []), ("ensemble", groups)):
+    for study, besides in (("matrix", []), ("trajectory", []), ("ensemble", groups)):
         lines += _typed_class(f"{study.capitalize()}Options(Options, total=False)", f"The same of {study}().",
                               besides + study_rows(study))
     return "\n".join(lines) + "\n"

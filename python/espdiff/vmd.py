@@ -12,12 +12,12 @@ This module needs neither the engine's Python extension nor NumPy, since VMD's P
 arrays are NumPy's where it is there, otherwise memoryviews.
 """
 
-import csv
 import json
 import math
 import os
 
 from ._errors import Error, InputError
+from ._tables import Trajectory, column, number
 from ._tcl import Interpreter, split_dict, split_list, word
 
 _tcl = None
@@ -205,7 +205,7 @@ class Comparison(_Surface):
         texts = ("chain", "insertion", "name", "target_chain", "target_insertion", "target_name")
         rows = [split_dict(row) for row in split_list(_call("espdiff", "residues", self.handle))]
         return [{key: value if key in texts else int(value) if value and key in ("index", "number", "target_number")
-                 else _number(value)
+                 else number(value)
                  for key, value in row.items()} for row in rows]
 
     def table(self):
@@ -219,7 +219,7 @@ class Comparison(_Surface):
 
     def color_atoms(self, **options):
         """Writes a quantity of the residues to their atoms (`espdiff atoms`): quantity, field, show, ... A dict."""
-        return {key: _number(value) if key in ("min", "max") else int(value) if key == "atoms" else value
+        return {key: number(value) if key in ("min", "max") else int(value) if key == "atoms" else value
                 for key, value in split_dict(_call("espdiff", "atoms", self.handle, *_options(options))).items()}
 
     def uncolor_atoms(self):
@@ -283,40 +283,6 @@ class Matrix(_Handle):
         return _call("espdiff", "table", self.handle)
 
 
-class Trajectory:
-    """The result of trajectory(): frames, rows, skipped, resumed, seconds, csv; and the file's columns."""
-
-    def __init__(self, summary):
-        self.result = {key: value if key == "csv" else _number(value) if key == "seconds" else int(value)
-                       for key, value in summary.items()}
-
-    @property
-    def columns(self):
-        """{name: one value for each row}: numbers, NaN where there is none; texts where a column has some."""
-        with open(self.result["csv"], newline="", encoding="utf-8") as lines:
-            rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-        return {name: _column([row[name] for row in rows]) for name in (rows[0] if rows else ()) if name != "checksum"}
-
-    def __repr__(self):
-        return "<espdiff.vmd trajectory of %d rows in %s>" % (self.result["rows"], self.result["csv"])
-
-
-def _number(text):
-    return float(text) if text != "" else math.nan
-
-
-def _column(texts):
-    try:
-        values = [_number(text) for text in texts]
-    except ValueError:
-        return texts
-    try:
-        import numpy
-    except ImportError:
-        return values
-    return numpy.array(values)
-
-
 def compare(source, target, progress=None, **options):
     """Compares two states; returns a Comparison. progress: a function of (stage, fraction). Ctrl-C cancels."""
     words = ("compare", _endpoint(source, "source"), _endpoint(target, "target"))
@@ -369,7 +335,8 @@ def trajectory(mol=None, csv=None, file=None, reference=None, progress=None, **o
     handle = _compute(("trajectory",), dict(options, mol=mol, file=file, reference=reference, csv=csv), progress)
     summary = split_dict(_call("espdiff", "result", handle))
     _call("espdiff", "delete", handle)
-    return Trajectory(summary)
+    return Trajectory({key: value if key == "csv" else number(value) if key == "seconds" else int(value)
+                       for key, value in summary.items()})
 
 
 def undraw():

@@ -3,6 +3,8 @@
 
 #include "base/error.h"
 #include "base/message.h"
+#include "io/files/check_outputs.h"
+#include "prepare/input_files.h"
 #include "report/residue_values.h"
 
 namespace espdiff {
@@ -39,16 +41,20 @@ const std::vector<OptionRow<TrajectoryRequest>>& trajectory_settings() {
   return all;
 }
 
-void check_request(const TrajectoryRequest& request, const CompareOptions& options) {
+void check_request(const TrajectoryRequest& request, const CompareOptions& options, std::vector<std::string> inputs,
+                   const std::string& picture) {
   if (request.resume && request.overwrite)
     throw InputError(switched_on("resume") + " and " + switched_on("overwrite") + " exclude each other");
-  if (request.residue_quantity.empty()) return;
-  if (request.residues.empty()) throw InputError(option("residue-quantity") + " needs " + option("residues", "FILE"));
-  require_residue_quantity(request.residue_quantity, options.fields);
+  if (!request.residue_quantity.empty()) {
+    if (request.residues.empty()) throw InputError(option("residue-quantity") + " needs " + option("residues", "FILE"));
+    require_residue_quantity(request.residue_quantity, options.fields);
+  }
+  for (const std::string& path : input_files(options.input)) inputs.push_back(path);
+  check_outputs(inputs, {request.csv, request.csv + ".state", request.residues, picture});
 }
 
-std::unique_ptr<TrajectoryRun> begin_trajectory(const TrajectoryRequest& request, const std::string& csv,
-                                                TrajectoryPlan plan, SeriesDescription run) {
+std::unique_ptr<TrajectoryRun> begin_trajectory(const TrajectoryRequest& request, TrajectoryPlan plan,
+                                                SeriesDescription run) {
   plan.skip_errors = request.skip_errors;
   plan.start = run.start = request.start_of(plan.options);
   run.frames = plan.frames;
@@ -59,7 +65,7 @@ std::unique_ptr<TrajectoryRun> begin_trajectory(const TrajectoryRequest& request
   std::optional<ResidueCsv> residues;
   if (!request.residues.empty())
     residues.emplace(request.residues, request.residue_quantity, existing, plan.options.fields);
-  SeriesCsv rows(csv, head, existing, plan.compared);
+  SeriesCsv rows(request.csv, head, existing, plan.compared);
   return std::make_unique<TrajectoryRun>(std::move(plan), std::move(rows), std::move(residues));
 }
 

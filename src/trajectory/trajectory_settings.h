@@ -15,6 +15,7 @@
 namespace espdiff {
 
 struct TrajectoryRequest {
+  std::string csv;                 ///< table of the rows
   std::string frames = "all";      ///< as parse_frames() reads it
   std::optional<StartFrom> start;  ///< none: usual_start()
   std::string residues;            ///< table of residues; empty: none
@@ -28,15 +29,18 @@ struct TrajectoryRequest {
 const std::vector<OptionRow<TrajectoryRequest>>& trajectory_settings();
 
 /// Refuses what cannot be together, before anything is read.
-/// @throws InputError (resume and overwrite; a residue quantity that does not exist, or without a table)
-void check_request(const TrajectoryRequest& request, const CompareOptions& options);
+/// @param inputs  files besides those that the options name
+/// @param picture a further output; empty for none
+/// @throws InputError (resume and overwrite; a residue quantity that does not exist, or without a table), as
+///         check_outputs()
+void check_request(const TrajectoryRequest& request, const CompareOptions& options, std::vector<std::string> inputs,
+                   const std::string& picture = {});
 
 /// Begins a run, or continues it: opens its tables.
-/// @param csv  table of the rows
 /// @param plan with its frames, source, options and parts; start and errors are set from the request
 /// @param run  with its molecules and potentials in words; frames and start are set from the plan
 /// @throws as series_head(), ResidueCsv, SeriesCsv, TrajectoryRun
-std::unique_ptr<TrajectoryRun> begin_trajectory(const TrajectoryRequest& request, const std::string& csv,
-                                                TrajectoryPlan plan, SeriesDescription run);
+std::unique_ptr<TrajectoryRun> begin_trajectory(const TrajectoryRequest& request, TrajectoryPlan plan,
+                                                SeriesDescription run);
 
 }  // namespace espdiff

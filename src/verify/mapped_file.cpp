@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/formatted.h"
 
 namespace espdiff {
 namespace {
@@ -22,18 +21,6 @@ std::vector<double> array(const std::string& path, const std::vector<VtpNumbers>
     throw InputError(path + ": the array \"" + name + "\" has " + std::to_string(found->n_components) +
                      " components, expected " + std::to_string(n_components) + "; compare again");
   return found->values;
-}
-
-constexpr double kMostCoordinate_A = 1e6;
-
-void check_near(const std::string& path, const std::vector<Vec3d>& positions) {
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    for (const double x : {positions[v].x, positions[v].y, positions[v].z}) {
-      if (std::fabs(x) <= kMostCoordinate_A) continue;
-      throw InputError(path +
-                       formatted(": vertex %zu has the coordinate %g; at most 10^6 Angstrom were expected", v, x));
-    }
-  }
 }
 
 /// Residues are indices, or negative for none.
@@ -69,8 +56,6 @@ MappedFile::MappedFile(const std::string& path) {
   residue = of_points("residue_index");
   target_residue = of_points("target_residue_index");
   turned = of_points("turned");
-  check_near(path, source_positions);
-  check_near(path, content.positions);
   check_residues(path, residue, "residue_index");
   check_residues(path, target_residue, "target_residue_index");
   if (find_array(content.point_arrays, "potential_source") != nullptr) {

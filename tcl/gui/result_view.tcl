@@ -236,10 +236,16 @@ namespace eval ::espdiff::gui {
         if {$prefix ne ""} { export_to [file rootname $prefix] }
     }
 
+    # The dialog asks about a file named `prefix`; the results have further endings.
     proc export_to {prefix} {
         variable shown
-        set files [espdiff export $shown $prefix]
-        remember $shown export [list export $prefix]
+        set replaced {}
+        foreach ending {.json .vtp .residues.csv .source.pqr .target.pqr} {
+            if {[file exists $prefix$ending]} { set replaced {-overwrite 1} }
+        }
+        if {$replaced ne "" && ![confirm_overwrite $prefix]} return
+        set files [espdiff export $shown $prefix {*}$replaced]
+        remember $shown export [list export [beside $prefix] -overwrite 1]
         set names {}
         foreach path $files { lappend names [file tail $path] }
         show_message "Written to [file dirname [file normalize $prefix]]: [join $names {, }]"
@@ -255,8 +261,8 @@ namespace eval ::espdiff::gui {
 
     proc report_to {path} {
         variable shown
-        espdiff report $shown -output $path
-        remember $shown report [list report -output $path]
+        espdiff report $shown -output $path -overwrite 1
+        remember $shown report [list report -output [beside $path] -overwrite 1]
         show_message "Written: $path; any browser opens it."
     }
 

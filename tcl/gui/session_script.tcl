@@ -152,7 +152,7 @@ namespace eval ::espdiff::gui {
         if {[dict exists $trajectory_run plot]} {
             set plot [dict create {*}[dict get $trajectory_run plot]]
             dict set plot -file [beside [dict get $plot -file]]
-            lappend lines "espdiff plot [list [beside $csv]] $plot"
+            lappend lines "espdiff plot [list [beside $csv]] $plot -overwrite 1"
         }
         return $lines
     }

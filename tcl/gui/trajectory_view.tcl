@@ -231,12 +231,12 @@ namespace eval ::espdiff::gui {
             return
         }
         if {[shows_residue_map]} {
-            espdiff plot [residue_file_of [dict get $trajectory_run output -csv]] -file $path
+            espdiff plot [residue_file_of [dict get $trajectory_run output -csv]] -file $path -overwrite 1
             tell_in trajectory "Written: $path"
             return
         }
         set metric [lindex [chosen_trajectory_metric] 0]
-        espdiff plot [dict get $trajectory_run output -csv] -metrics [list $metric] -file $path
+        espdiff plot [dict get $trajectory_run output -csv] -metrics [list $metric] -file $path -overwrite 1
         dict set trajectory_run plot [list -metrics [list $metric] -file $path]
         tell_in trajectory "Written: $path"
     }

@@ -7,7 +7,9 @@ namespace eval ::espdiff {
         if {$quantity eq "auto"} {
             set quantity [usual_metric [expr {[dict get [core::result $handle] potential_unit] ne ""}]]
         }
-        if {[dict get $options file] ne ""} { return [core::residue_pdb $handle $quantity [dict get $options file]] }
+        if {[dict get $options file] ne ""} {
+            return [core::residue_pdb $handle $quantity [dict get $options file] [dict get $options overwrite]]
+        }
         require_vmd "espdiff atoms" "outside of it -file FILE writes a PDB file with the values as B factors"
         set mol [atoms_molecule $handle [dict get $options mol]]
         set values [residue_values $handle $quantity $mol]

@@ -20,6 +20,7 @@ namespace eval ::espdiff {
             fail "espdiff figure: the program espdiff is not found; install it whole (cmake --install BUILD), put it on\
                 PATH, or name it in the environment variable ESPDIFF_PROGRAM" IO
         }
+        core::check_outputs {} [list [file normalize $path]] [dict get $options overwrite]
         set drawn [drawn_as $handle]
         set color [drawn_quantity $handle [dict get $drawn color] 0]
         if {$color eq "none"} { set color plain }

@@ -66,7 +66,7 @@ namespace eval ::espdiff {
         if {[dict get $status kind] ne "comparison"} {
             fail "espdiff view: $handle is a [dict get $status kind]; the viewer shows comparisons"
         }
-        core::export $handle [file join $folder $handle] 1
+        core::export $handle [file join $folder $handle] 1 0
         return [file join $folder $handle.vtp]
     }
 

@@ -106,7 +106,7 @@ namespace eval ::espdiff {
         set mol [dict get $options mol]
         set path [dict get $options file]
         if {($mol eq "") == ($path eq "")} { fail "espdiff map: give one of -mol ID and -file FILE.dx" }
-        if {$path ne ""} { return [core::write_map $handle $quantity $spacing $path] }
+        if {$path ne ""} { return [core::write_map $handle $quantity $spacing $path [dict get $options overwrite]] }
         set mol [vmd_molecule_id $mol "espdiff map"]
         set name [core::put_map $handle $quantity $spacing]
         finally {
@@ -119,7 +119,7 @@ namespace eval ::espdiff {
     proc add_map_by_file {handle quantity spacing mol} {
         set path [temporary_file .dx]
         finally {
-            core::write_map $handle $quantity $spacing $path
+            core::write_map $handle $quantity $spacing $path 1
             keep_view { set arrived [vmd_add_volume dx $path $mol] }
         } { file delete $path }
         if {!$arrived} { fail "espdiff map: VMD did not take the map into molecule $mol; see its console" IO }

@@ -221,8 +221,9 @@ TEST_CASE("no verb replaces a file that is there unless --overwrite says so") {
     const std::size_t n_files = in.folder.n_files();
     const Outcome refused = run_espdiff(command, where);
     CHECK(refused.status == 2);
-    CHECK_MESSAGE(contains(refused.err, "espdiff: " + output + " exists; --overwrite replaces it, another --output"),
-                  refused.err);
+    CHECK_MESSAGE(
+        contains(refused.err, "espdiff: " + output + " exists; --overwrite replaces it, another name keeps it"),
+        refused.err);
     CHECK(contains(refused.err, "\nnext: espdiff " + command + " --overwrite\n"));
     CHECK(read_file(in.folder.file(output)) == "somebody's work");
     CHECK(in.folder.n_files() == n_files);

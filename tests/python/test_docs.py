@@ -55,11 +55,14 @@ def test_many_states(data, tmp_path, monkeypatch):
     models = data / "series19_ubq_2k39"
     for model, name in (("m01.pqr", "a.pqr"), ("m02.pqr", "b.pqr"), ("m03.pqr", "c.pqr"), ("m01.pqr", "reference.pqr")):
         shutil.copy(models / model, tmp_path / name)
+    (tmp_path / "motion.pqr").write_text("".join(
+        f"MODEL {i}\n{(tmp_path / name).read_text().replace('END', '')}ENDMDL\n" for i, name in enumerate(("a.pqr", "b.pqr"), 1)))
     monkeypatch.chdir(tmp_path)
     lines = block("Many states").replace('potential="pb"', 'potential="none", grid_spacing=2').replace(
         'output="abc"', 'output="abc", potential="none", grid_spacing=2').replace("mean_abs_difference", "mean_displacement_A")
     variables = run(lines, frames=["b.pqr"], espdiff=espdiff)
     assert variables["m"]["mean_displacement_A"].shape == (3, 3)
+    assert list(variables["t"].columns["frame"]) == [0, 1]
 
 
 def test_trajectories(data, tmp_path, monkeypatch):

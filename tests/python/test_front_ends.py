@@ -19,7 +19,13 @@ def words(options, dash):
 
 
 def as_python(options):
-    return {name.replace("-", "_"): int(value) if name == "threads" else value for name, value in options.items()}
+    """Named parts and fields as dicts, from their texts."""
+    made = {name.replace("-", "_"): int(value) if name == "threads" else value for name, value in options.items()}
+    if "patch" in made:
+        made["patches"] = dict([made.pop("patch").split("=")])
+    if "field" in made:
+        made["fields"] = [made.pop("field")]
+    return made
 
 
 class CommandLine:
@@ -67,7 +73,9 @@ class Tcl:
         self.run(f"espdiff matrix {{{states}}} -output {{{out}}} {self.options(options)}")
 
     def trajectory(self, source, frames, potential, options, out):
-        self.run(f"espdiff trajectory -file {{{frames}}} -reference {{file {source}}} -map {potential} -csv {{{out}}} "
+        options = dict(options)
+        reference = options.pop("reference", f"{{file {source}}}")
+        self.run(f"espdiff trajectory -file {{{frames}}} -reference {reference} -map {potential} -csv {{{out}}} "
                  + self.options(options))
 
 
@@ -77,6 +85,9 @@ class Python:
 
     def matrix(self, files, potential, options, out):
         espdiff.matrix(files, potential=potential, output=out, **as_python(options))
+
+    def trajectory(self, source, frames, potential, options, out):
+        return espdiff.trajectory(source, frames, out, potential=potential, **as_python(options))
 
 
 @pytest.fixture(scope="module")
@@ -165,21 +176,67 @@ def test_a_matrix(names, options, front_ends, files, tmp_path):
     assert (b"Bondi's radii" in made["python"]) == ("wide" in names)
 
 
-@pytest.mark.parametrize("potential", ["coulomb", "pb", "none"])
-def test_a_trajectory(potential, front_ends, files, tmp_path):
-    """Python's Series has no file of its own: its residues are those of the frames."""
+TRAJECTORIES = {
+    "vacuum": ("a", "coulomb", {}),
+    "salt water": ("a", "pb", {}),
+    "shapes": ("a", "none", {}),
+    "two force fields": ("wide", "coulomb", {"radii": "element"}),
+    "region and patch": ("a", "coulomb", {"region": "1-4", "patch": "end=10-12"}),
+    "a field": ("a", "coulomb", {"field": "hydrophobicity"}),
+    "the frame before": ("a", "coulomb", {"reference": "previous"}),
+    "continued mappings": ("a", "coulomb", {"start": "previous", "frames": "1:2"}),
+    "by deform": ("a", "none", {"method": "deform"}),
+}
+
+
+def cells_of(content):
+    """Of a table's rows, without the head and the checksums that follow from it."""
+    return [line.rsplit(",", 1)[0] for line in content.decode().splitlines() if not line.startswith("#")]
+
+
+@pytest.mark.parametrize("case", TRAJECTORIES)
+def test_a_trajectory(case, front_ends, files, tmp_path):
+    """Rows and residues; and Python's Series, which has no file: its numbers are those of the rows."""
+    name, potential, options = TRAJECTORIES[case]
     made = {}
-    for who in ("command line", "tcl"):
-        out = output(tmp_path, who) + ".csv"
-        front_ends[who].trajectory(files["a"], files["frames"], potential, QUICK, out)
-        made[who] = pathlib.Path(out).read_bytes()
+    for who, front_end in front_ends.items():
+        out = output(tmp_path, who)
+        front_end.trajectory(files[name], files["frames"], potential, {**QUICK, **options, "residues": out + ".residues.csv"},
+                             out + ".csv")
+        made[who] = [pathlib.Path(out + ending).read_bytes() for ending in (".csv", ".residues.csv")]
+    assert made["python"] == made["command line"]
+    if options.get("reference") == "previous":  # in Tcl there is no other molecule, whose file the heads would name
+        made = {who: [cells_of(content) for content in contents] for who, contents in made.items()}
     assert made["tcl"] == made["command line"]
-    rows = [line.split(",") for line in made["tcl"].decode().splitlines() if not line.startswith("#")]
-    column = rows[0].index("mean_displacement_A")
-    series = espdiff.Series(files["a"], potential=potential, **as_python(QUICK))
+    if options.keys() & {"reference", "start"}:
+        return
+    rows = [line.split(",") for line in made["tcl"][0].decode().splitlines() if not line.startswith("#")]
+    series = espdiff.Series(files[name], potential=potential, **as_python({**QUICK, **options}))
     for model, row in enumerate(rows[1:], 1):
         step = series.step(espdiff.State.read(files["frames"], model=model))
-        assert f"{step.metrics['mean_displacement_A']:.6g}" == f"{float(row[column]):.6g}"
+        at = rows[0].index("mean_displacement_A")
+        assert f"{step.metrics['mean_displacement_A']:.6g}" == f"{float(row[at]):.6g}"
+
+
+def test_rows_of_a_trajectory_in_python(files, tmp_path):
+    out = str(tmp_path / "rows.csv")
+    run = espdiff.trajectory(files["a"], [files["frames"]], out, potential="none", frames="0,2", **as_python(QUICK))
+    assert {key: run.result[key] for key in ("frames", "rows", "skipped", "resumed")} == {
+        "frames": 2, "rows": 2, "skipped": 0, "resumed": 0}
+    assert list(run.columns["frame"]) == [0, 2] and run.columns["mean_displacement_A"][1] > 0
+    with pytest.raises(espdiff.IoError, match="`resume=True` continues it, `overwrite=True` replaces it"):
+        espdiff.trajectory(files["a"], files["frames"], out, potential="none", **as_python(QUICK))
+    again = espdiff.trajectory(files["a"], files["frames"], out, potential="none", frames="0,2", resume=True, **as_python(QUICK))
+    assert (again.result["rows"], again.result["resumed"]) == (0, 2)
+    for wrong, message in (({"reference": "first"}, "reference: 'first' is not source or previous"),
+                           ({"start": "sideways"}, "start.*sideways"), ({"frames": "7"}, "frame 7 is not among"),
+                           ({"source_model": 0}, "source_model: 0 is less than 1"),
+                           ({"strat": "source"}, "did you mean start")):
+        with pytest.raises(espdiff.InputError, match=message):
+            espdiff.trajectory(files["a"], files["frames"], str(tmp_path / "x.csv"), potential="none", **wrong)
+    with pytest.raises(espdiff.InputError, match="files: name one trajectory or more"):
+        espdiff.trajectory(files["a"], [], str(tmp_path / "x.csv"))
+    assert not (tmp_path / "x.csv").exists()
 
 
 def test_why_shapes_alone_were_compared(front_ends, files, tmp_path, monkeypatch):

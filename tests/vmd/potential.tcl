@@ -78,6 +78,11 @@ test "a trajectory: the cell and the coordinates of each frame, mean and varianc
     }
     close $channel
     check "values" {$n > 10000}
+    check_refused {espdiff potential -mol $tz2 -frames 0:1 -variance 1 -dxfile $scratch/tz2.dx} {ESPDIFF INPUT} \
+        "tz2.dx exists; -overwrite 1 replaces it"
+    file delete $scratch/tz2.dx
+    check_refused {espdiff potential -mol $tz2 -frames 0:1 -variance 1 -dxfile $scratch/tz2.dx} {ESPDIFF INPUT} \
+        "tz2.variance.dx exists; -overwrite 1 replaces it"
     set rows [espdiff trajectory -mol $tz2 -sel protein -frames 0:4:8 -map {pme grid 1.0} -csv $scratch/tz2.csv]
     check_equal "rows" [dict get $rows rows] 3
     mol delete $tz2

@@ -62,7 +62,7 @@ void run_preparation(PreparationObject& p, const Progress& progress) {
   progress.report("write", 1.0);
 }
 
-/// ENDPOINT OPTIONS FILE: charges for a molecule, which is written as a PQR file.
+/// ENDPOINT OPTIONS FILE OVERWRITE: charges for a molecule, which is written as a PQR file.
 Tcl_Obj* prepare_command(const Call& call) {
   auto object = std::make_shared<PreparationObject>();
   object->molecule = parse_endpoint(call.arguments[0], "molecule");
@@ -70,7 +70,7 @@ Tcl_Obj* prepare_command(const Call& call) {
   object->path = call.text(2);
   std::vector<std::string> inputs = input_files(object->computation.options.input);
   inputs.push_back(object->molecule.path);
-  check_outputs(inputs, {object->path});
+  check_outputs(inputs, {object->path}, to_bool(call.arguments[3], "overwrite"));
   AtomicFile probe(object->path);
   object->job = Worker::instance().submit([keep = std::weak_ptr<PreparationObject>(object)](const Progress& progress) {
     if (const auto alive = keep.lock()) run_preparation(*alive, progress);
@@ -160,7 +160,7 @@ Tcl_Obj* list_handles(const Call& call) { return to_list(call.handles.names()); 
 std::vector<Command> compute_commands() {
   return {{"compare", 3, 3, "source target options", compare_command},
           {"surface", 2, 2, "molecule options", surface},
-          {"prepare", 3, 3, "molecule options file", prepare_command},
+          {"prepare", 4, 4, "molecule options file overwrite", prepare_command},
           {"status", 1, 1, "handle", status},
           {"wait", 2, 2, "handle milliseconds", wait},
           {"cancel", 1, 1, "handle", cancel},

@@ -187,7 +187,7 @@ Tcl_Obj* write_map(const Call& call) {
   std::vector<std::string> inputs;
   for (const InputFile& input : call.handles.finished_comparison(call.text(0))->provenance.inputs)
     inputs.push_back(input.path);
-  check_outputs(inputs, {path});
+  check_outputs(inputs, {path}, to_bool(call.arguments[4], "overwrite"));
   write_dx(path, quantity_map(call));
   return to_obj(path);
 }
@@ -205,7 +205,7 @@ std::vector<Command> drawing_commands() {
   return {{"reasons", 1, 1, "handle", reasons},
           {"triangles", 3, 3, "handle molecule options", triangles},
           {"put_map", 3, 3, "handle quantity spacing", put_map},
-          {"write_map", 4, 4, "handle quantity spacing file", write_map}};
+          {"write_map", 5, 5, "handle quantity spacing file overwrite", write_map}};
 }
 
 }  // namespace espdiff::vmdplugin

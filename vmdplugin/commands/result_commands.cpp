@@ -166,15 +166,15 @@ std::vector<std::string> input_paths(const ComparisonObject& comparison) {
 
 Tcl_Obj* export_files(const Call& call) {
   const std::string handle = call.text(0), prefix = call.text(1);
+  const bool with_inputs = to_bool(call.arguments[2], "inputs"), overwrites = to_bool(call.arguments[3], "overwrite");
   const auto object = call.handles.find(handle);
   if (const auto* surface = dynamic_cast<const SurfaceObject*>(object.get())) {
     require_done(handle, *surface);
-    check_outputs({surface->given->path, surface->given->map_path}, {prefix + ".vtp"});
+    check_outputs({surface->given->path, surface->given->map_path}, {prefix + ".vtp"}, overwrites);
     write_surface(prefix + ".vtp", surface->molecule, surface->result, surface->result.unit);
     return to_list({prefix + ".vtp"});
   }
   const auto comparison = call.handles.finished_comparison(handle);
-  const bool with_inputs = to_bool(call.arguments[2], "inputs");
   const KeptInputs maps{comparison->study.source->map.get(), comparison->study.target->map.get()};  // of memory
   std::vector<std::string> files = {prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"};
   if (!with_inputs) {
@@ -182,7 +182,7 @@ Tcl_Obj* export_files(const Call& call) {
   } else {
     for (const std::string& ending : kept_input_endings(maps)) files.push_back(prefix + ending);
   }
-  check_outputs(input_paths(*comparison), files);
+  check_outputs(input_paths(*comparison), files, overwrites);
   if (!with_inputs) {
     write_compare(prefix, comparison->source_molecule, comparison->target_molecule, comparison->result,
                   comparison->options, comparison->provenance, comparison->kept);
@@ -196,12 +196,13 @@ Tcl_Obj* export_files(const Call& call) {
   return to_list(written);
 }
 
-/// PREFIX FILE TITLE SURFACES: the page of a result's files, its scales as wide as those of other surfaces (VTP files).
+/// PREFIX FILE TITLE SURFACES OVERWRITE: the page of a result's files, its scales as wide as those of other surfaces
+/// (VTP files).
 Tcl_Obj* report_page(const Call& call) {
   const std::string prefix = call.text(0), path = call.text(1);
   std::vector<std::string> surfaces;
   for (Tcl_Obj* const surface : to_vector(call.arguments[3], "surfaces")) surfaces.push_back(to_string(surface));
-  check_outputs(page_inputs(prefix), {path});
+  check_outputs(page_inputs(prefix), {path}, to_bool(call.arguments[4], "overwrite"));
   AtomicFile file(path);
   file.stream() << result_page(prefix, call.text(2), surfaces);
   file.commit();
@@ -215,7 +216,7 @@ Tcl_Obj* check_output_files(const Call& call) {
     for (Tcl_Obj* const path : to_vector(call.arguments[i], i == 0 ? "inputs" : "outputs"))
       lists[i].push_back(to_string(path));
   }
-  check_outputs(lists[0], lists[1]);
+  check_outputs(lists[0], lists[1], to_bool(call.arguments[2], "overwrite"));
   return nullptr;
 }
 
@@ -229,7 +230,7 @@ Tcl_Obj* residue_quantity(const Call& call) {
 
 Tcl_Obj* residue_pdb(const Call& call) {
   const auto comparison = call.handles.finished_comparison(call.text(0));
-  check_outputs(input_paths(*comparison), {call.text(2)});
+  check_outputs(input_paths(*comparison), {call.text(2)}, to_bool(call.arguments[3], "overwrite"));
   write_residue_pdb(call.text(2), comparison->source_molecule, comparison->result, call.text(1));
   return call.arguments[2];
 }
@@ -241,12 +242,12 @@ std::vector<Command> result_commands() {
           {"result_json", 1, 1, "handle", result_json},
           {"residues", 1, 1, "handle", residues},
           {"residue_quantity", 2, 2, "handle quantity", residue_quantity},
-          {"residue_pdb", 3, 3, "handle quantity file", residue_pdb},
+          {"residue_pdb", 4, 4, "handle quantity file overwrite", residue_pdb},
           {"table", 1, 1, "handle", table},
           {"range", 2, 2, "handle quantity", range},
-          {"check_outputs", 2, 2, "inputs outputs", check_output_files},
-          {"export", 3, 3, "handle prefix inputs", export_files},
-          {"report", 4, 4, "prefix file title surfaces", report_page}};
+          {"check_outputs", 3, 3, "inputs outputs overwrite", check_output_files},
+          {"export", 4, 4, "handle prefix inputs overwrite", export_files},
+          {"report", 5, 5, "prefix file title surfaces overwrite", report_page}};
 }
 
 }  // namespace espdiff::vmdplugin

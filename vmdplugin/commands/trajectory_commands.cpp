@@ -7,14 +7,11 @@
 #include "engine/engine.h"
 #include "frames/frame_range.h"
 #include "frames/frame_state.h"
-#include "io/files/check_outputs.h"
 #include "io/files/read_csv.h"
 #include "io/files/write_csv.h"
-#include "options/input_settings.h"
 #include "potential/potential.h"
 #include "potential/potential_settings.h"
-#include "prepare/input_files.h"
-#include "trajectory/trajectory_settings.h"
+#include "study/trajectory_study.h"
 #include "vmdplugin/values/tcl_values.h"
 
 namespace espdiff::vmdplugin {
@@ -72,13 +69,12 @@ Tcl_Obj* trajectory(const Call& call) {
   DictReader options(call.arguments[1], "options");
   object->computation = parse_computation(options, nullptr);
   DictReader reader(call.arguments[0], "plan");
-  const std::string csv = to_string(reader.require("csv"));
   TrajectoryRequest request;
+  request.csv = to_string(reader.require("csv"));
   reader.take(trajectory_settings(), request);
   SeriesDescription run = parse_description(reader, object->computation.options.temperature_K);
   TrajectoryPlan plan;
   plan.options = object->computation.options;
-  check_request(request, plan.options);
   for (Tcl_Obj* const frame : to_vector(reader.require("numbers"), "numbers"))
     plan.frames.push_back(to_int(frame, "numbers"));
   plan.against = parse_reference(reader.text("against", "one"));
@@ -89,16 +85,15 @@ Tcl_Obj* trajectory(const Call& call) {
   object->one_map = reader.boolean("one_map", false);
   object->against = plan.against;
   const std::string source_file = reader.text("source_file", "");
-  std::vector<std::string> inputs = input_files(plan.options.input);
+  std::vector<std::string> inputs = run.files;
   for (Tcl_Obj* const path : to_vector(reader.require("inputs"), "inputs")) inputs.push_back(to_string(path));
   reader.finish();
-  inputs.insert(inputs.end(), run.files.begin(), run.files.end());
   inputs.push_back(source_file);
-  check_outputs(inputs, {csv, csv + ".state", request.residues});
+  check_request(request, plan.options, std::move(inputs));
   if (!source_file.empty()) run.reference_files = {source_file};
   if (!run.files.empty()) object->files = std::make_unique<FrameFiles>(run.files);
   if (!source_file.empty()) object->source_files = std::make_unique<FrameFiles>(std::vector{source_file});
-  object->run = begin_trajectory(request, csv, std::move(plan), std::move(run));
+  object->run = begin_trajectory(request, std::move(plan), std::move(run));
   return to_obj(call.handles.add(object));
 }
 
@@ -138,34 +133,31 @@ ComparedState read_side(TrajectoryObject& object, StateRole role, std::optional<
   const CompareOptions& options = object.computation.options;
   const bool is_source = role == StateRole::kSource;
   const StatePtr& given = is_source ? object.source : object.target;
+  const LoadedState& source = object.states.source().loaded;
   FrameFiles* const files =
       is_source && object.against == Reference::kSame ? object.source_files.get() : object.files.get();
+  if (!frame || files == nullptr || given->path.empty())
+    return StateReader({options, {}, true}, {given}, progress).read(role, is_source ? nullptr : &source.molecule);
   ComparedState state;
   state.role = to_string(role);
-  if (frame && files != nullptr && !given->path.empty()) {
-    static const LoadedState none;
-    state.loaded = load_frame_state(*files, *frame, given->structure, is_source ? none : object.loaded_source.loaded(),
-                                    takes_everything(*given), options.input, progress, role);
-    if (is_source && given->potential)
-      state.loaded.preparation =
-          charge_molecule(state.loaded.molecule, options.input, {}, state.loaded.charge_files, progress);
-  } else {
-    const Molecule* const source = is_source ? nullptr : &object.loaded_source.loaded().molecule;
-    state = StateReader({options, {}, true}, {given}, progress).read(role, source);
-  }
-  add_map(*given, {}, options.temperature_K, state);
+  static const LoadedState none;
+  state.loaded = load_frame_state(*files, *frame, given->structure, is_source ? none : source, takes_everything(*given),
+                                  options.input, progress, role);
+  if (is_source && given->potential)
+    state.loaded.preparation =
+        charge_molecule(state.loaded.molecule, options.input, {}, state.loaded.charge_files, progress);
   return state;
 }
 
 /// The inputs of all rows: the one source, and a map of all frames.
 std::vector<InputFile> common_inputs(const TrajectoryObject& object) {
   std::vector<InputFile> inputs;
-  const ComparedState& source = object.loaded_source.state();
+  const ComparedState& source = object.states.source();
   if (object.against == Reference::kOne) {
     inputs = source.inputs;
     inputs.insert(inputs.end(), source.map_inputs.begin(), source.map_inputs.end());
   }
-  const std::vector<InputFile>& of_map = object.loaded_target.map_inputs;
+  const std::vector<InputFile>& of_map = object.states.frame().map_inputs;
   if (object.one_map) inputs.insert(inputs.end(), of_map.begin(), of_map.end());
   return inputs;
 }
@@ -176,23 +168,16 @@ void run_step(TrajectoryObject& object, const Progress& progress) {
   TrajectoryRun& run = *object.run;
   if (object.engine == nullptr) object.engine = engine_for(object.computation);
   // A failure of the common source ends the run, even with -on-error skip.
-  const InputOptions& options = object.computation.options.input;
-  SeriesSource& source = object.loaded_source;
-  const bool has_one_source = object.against == Reference::kOne;
-  if (has_one_source && object.source != nullptr) {
-    source.take(read_side(object, StateRole::kSource, std::nullopt, progress), options);
-    object.loaded_target = {};
+  if (object.against == Reference::kOne && object.source != nullptr) {
+    object.states.take_source(read_side(object, StateRole::kSource, std::nullopt, progress), object.source.get());
     run.note_inputs(common_inputs(object));
     object.source = nullptr;  // once
   }
-  const auto read = [&] {
-    const TrajectoryStep& step = run.next();
-    if (!has_one_source) source.take(read_side(object, StateRole::kSource, step.source, progress), options);
-    object.loaded_target = read_side(object, StateRole::kTarget, step.frame, progress);
-    return StepInput{source.side(), source.frame(object.loaded_target, options), common_inputs(object),
-                     &source.loaded(), &object.loaded_target.loaded};
-  };
-  if (const SeriesRow* const row = run.step(*object.engine, read, progress)) object.row = *row;
+  const auto read = [&](StateRole role, int frame) { return read_side(object, role, frame, progress); };
+  const SeriesRow* const row = compare_step(
+      run, object.states, *object.engine, read, object.source.get(), *object.target,
+      [&] { return common_inputs(object); }, progress);
+  if (row != nullptr) object.row = *row;
 }
 
 /// The sides of a frame: TARGET, and SOURCE unless all frames have one.

@@ -15,7 +15,7 @@
 #include "potential/potential_series.h"
 #include "study/matrix_study.h"
 #include "study/pair_study.h"
-#include "study/series_source.h"
+#include "study/series_states.h"
 #include "trajectory/trajectory.h"
 #include "vmdplugin/bridge/worker.h"
 #include "vmdplugin/values/endpoint.h"
@@ -78,8 +78,7 @@ struct TrajectoryObject : Object {
   /// Of a run over a file's models, and against those of another.
   std::unique_ptr<FrameFiles> files, source_files;
   StatePtr source, target;
-  SeriesSource loaded_source;
-  ComparedState loaded_target;
+  SeriesStates states{computation.options};
   std::unique_ptr<Engine> engine;      // made by the first step's job
   std::unique_ptr<TrajectoryRun> run;  // destroyed before what it points to
   std::optional<SeriesRow> row;        ///< that the last step added

@@ -1,5 +1,5 @@
-// series.cpp: many targets against one source, whose surface is made once.
-#include "compare/series.h"
+// series.cpp: many targets against one source, whose surface is made once; runs over frames in files.
+#include "series.h"
 
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
@@ -8,14 +8,11 @@
 
 #include <mutex>
 
-#include "base/error.h"
 #include "comparison.h"
 #include "engine/engine.h"
 #include "python/src/boundary/run.h"
-#include "report/state_report.h"
-#include "series.h"
-#include "study/series_source.h"
-#include "trajectory/trajectory_settings.h"
+#include "study/pair_series.h"
+#include "study/trajectory_study.h"
 
 namespace espdiff::python {
 namespace {
@@ -33,58 +30,68 @@ StartFrom parse_start(const std::string& text, const CompareOptions& options) {
 class PySeries {
  public:
   PySeries(StatePtr source, const Settings& settings, const std::string& potential, const std::string& pme_cell,
-           const std::string& start, const std::string& device, int threads, std::string call)
+           const std::string& start, const std::string& device, int threads, const std::string& call)
       : source_(std::move(source)),
         computation_(settings, potential, pme_cell, device, threads),
-        start_(parse_start(start, computation_.options)),
-        call_(std::move(call)) {}
+        series_({source_, nullptr, computation_.options, computation_.potential, false, true, call},
+                parse_start(start, computation_.options)) {}
 
   std::shared_ptr<Comparison> step(const StatePtr& target, const nb::object& progress) {
     auto made = std::make_shared<Comparison>();
     made->source = source_;
     made->target = target;
-    made->options = computation_.options;
     run(progress, [&](const Progress& told) {
       const std::lock_guard<std::mutex> lock(one_at_a_time_);
-      begin(told);
-      StateReader reader(computation_.states(), {target}, told);
-      ComparedState state = reader.read_frame(loaded_.loaded());
-      add_map(*target, plan_, computation_.options.temperature_K, state);
-      const CompareInput side = loaded_.frame(state, computation_.options.input);
-      made->provenance = provenance_of(*engine_, call_, loaded_.state(), state);
-      made->result = series_->step(side, start_, told);
-      note_states(made->result, loaded_.loaded(), state.loaded, {});
-      if (!made->result.has_potential) made->result.shapes_because = plan_.because();
-      made->source_molecule = loaded_.surface();
-      made->target_molecule = std::move(state.loaded.molecule);
+      if (engine_ == nullptr) engine_ = computation_.make_engine();
+      static_cast<PairAnswer&>(*made) = series_.step(target, *engine_, told);
     });
     return made;
   }
 
  private:
-  /// Loads the source, at the first step.
-  void begin(const Progress& progress) {
-    if (series_ != nullptr) return;
-    StateReader reader(computation_.states(), {source_}, progress);
-    ComparedState source = reader.read(StateRole::kSource);
-    plan_ = reader.add_maps({&source});
-    loaded_.take(std::move(source), computation_.options.input);
-    side_ = loaded_.side();
-    engine_ = computation_.make_engine();
-    series_ = std::make_unique<Series>(*engine_, side_, computation_.options);
-  }
-
   StatePtr source_;
   Computation computation_;
-  StartFrom start_;
-  std::string call_;
   std::mutex one_at_a_time_;
   std::unique_ptr<Engine> engine_;
-  SeriesSource loaded_;
-  PotentialPlan plan_;
-  CompareInput side_;
-  std::unique_ptr<Series> series_;  // destroyed before what it refers to
+  PairSeries series_;  // destroyed before the engine
 };
+
+/// @returns frames, rows, skipped, resumed, trusted, and the warning of a resumed run
+nb::dict run_over_frames(const nb::dict& order, const nb::object& progress) {
+  const auto text = [&](const char* name) { return nb::cast<std::string>(order[name]); };
+  const auto texts = [&](const char* name) { return nb::cast<std::vector<std::string>>(order[name]); };
+  const Computation computation(nb::cast<Settings>(order["settings"]), text("potential"), text("pme_cell"),
+                                text("device"), nb::cast<int>(order["threads"]));
+  TrajectoryStudy study;
+  study.source = text("source");
+  study.source_model = nb::cast<int>(order["source_model"]);
+  study.frames = texts("frames");
+  study.frames_of = text("frames_of");
+  study.source_frames = texts("source_frames");
+  study.against_previous = text("reference") == "previous";
+  study.plugins = text("plugins");
+  for (const auto& [map, side] : {std::pair(&study.source_map, "source_map"), {&study.target_map, "target_map"}}) {
+    const auto [path, unit] = nb::cast<std::pair<std::string, std::string>>(order[side]);
+    map->map_path = path;
+    map->map_unit = unit;
+  }
+  study.options = computation.options;
+  study.potential = computation.potential;
+  study.request.csv = text("csv");
+  set_rows(trajectory_settings(), study.request, nb::cast<Settings>(order["options"]));
+  std::string warning;
+  study.tell = [&](const std::string& told) { warning = told; };
+  TrajectorySummary summary;
+  run(progress, [&](const Progress& told) { summary = run_trajectory(study, *computation.make_engine(), told); });
+  nb::dict numbers;
+  numbers["frames"] = summary.n_frames;
+  numbers["rows"] = summary.n_rows;
+  numbers["skipped"] = summary.n_skipped;
+  numbers["resumed"] = summary.n_resumed;
+  numbers["trusted"] = summary.n_trusted;
+  numbers["warning"] = warning;
+  return numbers;
+}
 
 }  // namespace
 
@@ -93,10 +100,11 @@ void add_series(nb::module_& module) {
                        "Many targets, such as the frames of a trajectory, against one source, whose surface and "
                        "potential are made once.")
       .def(nb::init<StatePtr, const Settings&, const std::string&, const std::string&, const std::string&,
-                    const std::string&, int, std::string>(),
+                    const std::string&, int, const std::string&>(),
            nb::arg("source"), nb::arg("settings"), nb::arg("potential"), nb::arg("pme_cell"), nb::arg("start"),
            nb::arg("device"), nb::arg("threads"), nb::arg("call"))
       .def("step", &PySeries::step, nb::arg("target"), nb::arg("progress").none(), "Compares the next target.");
+  module.def("trajectory", &run_over_frames, nb::arg("order"), nb::arg("progress").none());
 }
 
 }  // namespace espdiff::python

@@ -1,6 +1,4 @@
 // trajectory.cpp: `espdiff trajectory SOURCE FRAMES... -o OUT.csv`.
-#include "trajectory/trajectory.h"
-
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -8,80 +6,49 @@
 
 #include "base/formatted.h"
 #include "base/text/printable.h"
+#include "cli/map_options.h"
 #include "cli/plot_pair.h"
-#include "cli/trajectory_sides.h"
 #include "cli/verbs.h"
 #include "cli/words/help.h"
 #include "engine/engine.h"
-#include "frames/frame_range.h"
 #include "io/files/check_outputs.h"
-#include "io/frames/molfile_plugins.h"
 #include "options/input_settings.h"
-#include "options/options.h"
 #include "plot/gnuplot.h"
-#include "prepare/input_files.h"
-#include "trajectory/trajectory_settings.h"
+#include "study/trajectory_study.h"
 
 namespace espdiff::cli {
 namespace {
 
+/// What `espdiff trajectory` was called with.
+struct TrajectoryArguments {
+  TrajectoryStudy study;
+  std::string reference = "source";
+  bool quiet = false;
+  MapArguments maps;
+  DeviceArguments device;
+  GivenSettings settings;
+};
+
 void add_run_options(CLI::App& p, TrajectoryArguments& a) {
   const char* const group = "Frames";
-  add_rows(p, trajectory_settings(), a.request);
+  add_rows(p, trajectory_settings(), a.study.request);
   p.add_option("--reference", a.reference, "Compare each frame with SOURCE, or with the frame before it")
       ->check(CLI::IsMember({"source", "previous"}))
       ->capture_default_str()
       ->group(group);
-  p.add_option("--source-frames", a.source_frames,
+  p.add_option("--source-frames", a.study.source_frames,
                "Frames of SOURCE, in files as FRAMES: frame i is compared with frame i of these (trajectory against "
                "trajectory)")
       ->group(group);
-  p.add_option("--frames-of", a.frames_of,
+  p.add_option("--frames-of", a.study.frames_of,
                "Structure or topology whose atoms, charges and radii FRAMES have, where they are not SOURCE's")
       ->group(group);
-  add_plugins_option(p, a.plugins, group);
-  p.add_option("--source-model", a.source_model,
+  add_plugins_option(p, a.study.plugins, group);
+  p.add_option("--source-model", a.study.source_model,
                "Model of a multi-model source file, from 1; with a topology as SOURCE, frame of the first trajectory")
       ->check(CLI::PositiveNumber)
       ->capture_default_str()
       ->group("Molecules");
-}
-
-/// A map in the Tcl command's words; empty for none.
-std::string map_words(const MapArguments& m, const std::string& path, const std::string& unit) {
-  if (path.empty()) return {};
-  return "file " + path + (unit.empty() ? "" : " unit " + unit) + (m.map_array.empty() ? "" : " array " + m.map_array);
-}
-
-/// "file a.pqr"
-std::string reference_words(const TrajectoryArguments& a) {
-  const Reference reference = reference_of(a);
-  if (reference == Reference::kPrevious) return "previous";
-  std::string words = "file " + a.source;
-  if (reference == Reference::kSame) {
-    for (const std::string& path : a.source_frames) words += " " + path;
-    return words + " frame same";
-  }
-  if (needs_molfile_reader(a.source)) words += " coordinates " + a.targets.front();
-  return a.source_model == 1 ? words : words + " model " + std::to_string(a.source_model);
-}
-
-/// @param potential the computed potential in words; empty for none
-SeriesDescription description_of(const TrajectoryArguments& a, const TrajectoryPlan& plan,
-                                 const std::string& potential) {
-  SeriesDescription run;
-  run.files = a.targets;
-  run.structure = a.structure;
-  run.frames_of = a.frames_of;
-  run.reference = plan.reference;
-  run.reference_files = a.source_frames;
-  if (!potential.empty()) {
-    run.map = potential;
-  } else {
-    run.map = map_words(a.maps, a.maps.target_map, a.maps.target_map_unit);
-    run.reference_map = map_words(a.maps, a.maps.source_map, a.maps.source_map_unit);
-  }
-  return run;
 }
 
 constexpr std::size_t kPlotEnding = 4;
@@ -95,38 +62,23 @@ bool is_plot(const std::string& path) {
 
 int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
   check_map_options(a.maps);
-  if (a.reference == "previous" && !(a.source_frames.empty() && a.frames_of.empty()))
-    throw InputError(std::string(a.source_frames.empty() ? "--frames-of" : "--source-frames") +
-                     " and --reference previous exclude each other" +
-                     (a.source_frames.empty() ? "; give the frames' own structure as SOURCE" : ""));
-  TrajectoryPlan plan;
-  plan.options = make_options(a.settings);
-  check_request(a.request, plan.options);
-  std::vector<std::string> inputs = input_files(plan.options.input);
-  inputs.insert(inputs.end(), a.targets.begin(), a.targets.end());
-  inputs.insert(inputs.end(), a.source_frames.begin(), a.source_frames.end());
-  inputs.insert(inputs.end(), {a.source, a.frames_of, a.maps.source_map, a.maps.target_map});
-  check_outputs(inputs, {a.output, a.output + ".state", a.request.residues, a.picture});
-  if (!a.picture.empty()) {
+  TrajectoryStudy study = a.study;
+  study.against_previous = a.reference == "previous";
+  study.source_map = with_given_map(a.maps, true);
+  study.target_map = with_given_map(a.maps, false);
+  study.potential = a.maps;
+  study.options = make_options(a.settings);
+  study.tell = [](const std::string& warning) { std::fprintf(stderr, "espdiff: %s\n", printable(warning).c_str()); };
+  check_study(study);
+  const std::string& table = study.request.csv;
+  if (!study.picture.empty()) {
     require_gnuplot();
-    if (!a.request.overwrite && !a.request.resume) check_outputs({}, {a.picture}, false);
+    if (!study.request.overwrite && !study.request.resume) check_outputs({}, {study.picture}, false);
   }
   const auto begun = std::chrono::steady_clock::now();
-  context.progress->report("read", 0.0);
-  TrajectorySides sides(a, plan.options, *context.progress);
-  plan.against = reference_of(a);
-  plan.reference = reference_words(a);
-  plan.frames = parse_frames(a.request.frames, sides.frames());
-  plan.compared = parts_and_fields(plan.options);
   const std::unique_ptr<Engine> engine = make_engine(a.device);
-  const auto run = begin_trajectory(a.request, a.output, plan, description_of(a, plan, sides.potential()));
-  if (!run->warning().empty()) std::fprintf(stderr, "espdiff: %s\n", printable(run->warning()).c_str());
-  run->note_inputs(sides.inputs());
-  while (!run->is_done())
-    run->step(
-        *engine, [&] { return sides.step(run->next()); }, *context.progress);
-  const TrajectorySummary summary = run->summary();
-  if (!a.picture.empty()) plot_frames(a.output, a.picture);
+  const TrajectorySummary summary = run_trajectory(study, *engine, *context.progress);
+  if (!study.picture.empty()) plot_frames(table, study.picture);
   if (a.quiet) return 0;
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   std::cout << formatted("frames         %zu\n", summary.n_frames);
@@ -136,7 +88,7 @@ int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
   std::cout << formatted("trustworthy    %zu of %zu rows%s\n", summary.n_trusted, summary.n_frames,
                          summary.n_trusted < summary.n_frames ? "; column reasons says why the others are not" : "");
   std::cout << formatted("time           %.1f s\n", s);
-  if (!a.picture.empty()) std::cout << "written        " << a.output << ", " << a.picture << '\n';
+  if (!study.picture.empty()) std::cout << "written        " << table << ", " << study.picture << '\n';
   return 0;
 }
 
@@ -154,17 +106,19 @@ Verb add_trajectory(CLI::App& app) {
       "meanwhile.\n"
       "The columns are explained in docs/tcl.md, Trajectories.");
   parser
-      ->add_option("SOURCE", a->source, "Structure that each frame is compared with: PQR, PDB or mmCIF; or a topology")
+      ->add_option("SOURCE", a->study.source,
+                   "Structure that each frame is compared with: PQR, PDB or mmCIF; or a topology")
       ->required();
-  parser->add_option("FRAMES", a->targets, "Structure files whose models are the frames, or trajectories")->required();
+  parser->add_option("FRAMES", a->study.frames, "Structure files whose models are the frames, or trajectories")
+      ->required();
   parser
-      ->add_option("-o,--output,--csv", a->output,
+      ->add_option("-o,--output,--csv", a->study.request.csv,
                    "CSV file that gets a row for each frame; OUT.png or OUT.svg "
                    "draws the plot, too, beside OUT.csv")
       ->required();
   add_run_options(*parser, *a);
   add_map_options(*parser, a->maps);
-  add_structure_options(*parser, a->structure);
+  add_structure_options(*parser, a->study.structure);
   add_settings(*parser, a->settings, SettingsFor::kPair);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
@@ -173,9 +127,10 @@ Verb add_trajectory(CLI::App& app) {
                      {"espdiff trajectory closed.pqr frames.pdb -o motion.csv",
                       "espdiff trajectory adk.psf adk.dcd --potential pb --frames 0:10:end -o motion.csv --resume"}});
   return {parser, [a](const Context& context) {
-            if (is_plot(a->output)) {
-              a->picture = a->output;
-              a->output.replace(a->output.size() - kPlotEnding, kPlotEnding, ".csv");
+            std::string& table = a->study.request.csv;
+            if (is_plot(table)) {
+              a->study.picture = table;
+              table.replace(table.size() - kPlotEnding, kPlotEnding, ".csv");
             }
             return trajectory_verb(*a, context);
           }};

@@ -82,8 +82,7 @@ void check_outputs(const std::vector<std::string>& inputs, const std::vector<std
   for (const std::string& output : outputs) {
     std::error_code ignored;
     if (!overwrite && !output.empty() && fs::is_regular_file(output, ignored))
-      throw InputError(Message(output + " exists; " + switched_on("overwrite") + " replaces it, another " +
-                               option("output") + " keeps it")
+      throw InputError(Message(output + " exists; " + switched_on("overwrite") + " replaces it, another name keeps it")
                            .set_next({"", {{"overwrite", "", true}}}));
   }
   remove_leftovers(outputs);

@@ -58,6 +58,14 @@ const XmlElement* array_named(const XmlElement& element, const std::string& name
   return nullptr;
 }
 
+constexpr double kMostVertex_A = 1e6;
+
+void require_near(const VtkXmlFile& file, const XmlElement& array, std::size_t vertex, double value) {
+  if (!(std::fabs(value) <= kMostVertex_A))
+    file.fail(array, "vertex " + std::to_string(vertex) +
+                         formatted(" has the coordinate %g; at most 10^6 Angstrom were expected", value));
+}
+
 std::vector<Vec3d> read_positions(const VtkXmlFile& file, const XmlElement& piece, std::size_t n_points) {
   const XmlElement* const points = piece.child("Points");
   const XmlElement* const array = points != nullptr ? points->child("DataArray") : nullptr;
@@ -65,9 +73,7 @@ std::vector<Vec3d> read_positions(const VtkXmlFile& file, const XmlElement& piec
   if (file.n_components(*array) != 3) file.fail(*array, "the points have no three components");
   std::vector<Vec3d> positions;
   file.read_values(*array, 3 * n_points, [&](std::size_t i, double value) {
-    if (!std::isfinite(value))
-      throw FormatError(file.path(), 0,
-                        "the position of vertex " + std::to_string(i / 3) + " is not finite; write the file again");
+    require_near(file, *array, i / 3, value);
     if (i % 3 == 0) positions.emplace_back();
     positions.back()[static_cast<int>(i % 3)] = value;
   });
@@ -113,7 +119,11 @@ std::vector<VtpNumbers> read_arrays(const VtkXmlFile& file, const XmlElement* el
     numbers.n_components = file.n_components(array);
     const auto width = static_cast<std::size_t>(numbers.n_components);
     require_memory(static_cast<double>(width * n) * sizeof(double), file.path());
+    const bool has_positions = numbers.name == "source_position";
     file.read_values(array, width * (n_before + n), [&](std::size_t i, double value) {
+      if (has_positions) require_near(file, array, i / width, value);
+      if (std::isinf(value))
+        file.fail(array, "array " + in_quotes(numbers.name) + " has an infinite value; numbers or nan were expected");
       if (i >= width * n_before) numbers.values.push_back(value);
     });
     arrays.push_back(std::move(numbers));

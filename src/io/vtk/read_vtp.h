@@ -22,9 +22,9 @@ struct VtpNumbers {
 
 /// What a VTP file holds.
 struct VtpContent {
-  std::vector<Vec3d> positions;  ///< [vertex], finite
+  std::vector<Vec3d> positions;  ///< [vertex], at most 10^6 from 0
   std::vector<Triangle> triangles;
-  std::vector<VtpNumbers> point_arrays;                    ///< in file order, one tuple a vertex; may hold NaN
+  std::vector<VtpNumbers> point_arrays;                    ///< in file order, one tuple a vertex; finite or NaN
   std::vector<VtpNumbers> cell_arrays;                     ///< in file order, one tuple a triangle
   std::vector<std::pair<std::string, std::string>> texts;  ///< field arrays of type String: name, text
 };
@@ -34,7 +34,9 @@ const VtpNumbers* find_array(const std::vector<VtpNumbers>& arrays, const std::s
 
 /// Reads a VTP file of any encoding that VtkXmlFile reads. Polygons must be triangles; vertex and line cells beside
 /// them are left out, as are texts among point arrays.
-/// @throws FormatError (damage, sizes that do not agree, corners that name no vertex, positions that are not finite),
+/// @throws FormatError (damage, sizes that do not agree, corners that name no vertex, positions - those of
+/// "source_position"
+///         too - beyond 10^6 or not finite, infinite values),
 ///         InputError (strips, polygons, several pieces, another data set), IoError, MemoryError
 VtpContent read_vtp(const std::string& path);
 /// The same of what was read before.

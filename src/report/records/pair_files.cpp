@@ -140,6 +140,8 @@ PairFiles read_pair_files(const std::string& prefix) {
     throw FormatError(prefix + ".vtp", 0,
                       std::to_string(files.surface.positions.size()) + " vertices, and not those of " + prefix +
                           ".json; compare again");
+  if (files.surface.triangles.empty())
+    throw FormatError(prefix + ".vtp", 0, "the surface has no triangles; compare again");
   files.residues = read_csv(prefix + ".residues.csv");
   for (const char* column : {"chain", "residue_number", "insertion_code", "residue_name"})
     files.residues.require(column);

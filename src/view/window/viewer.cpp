@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "base/progress.h"
 #include "io/files/atomic_file.h"
 #include "view/comparison_scene.h"
 #include "view/display.h"
@@ -33,6 +34,8 @@ namespace {
 
 /// Distance from a split view's line within which the mouse grabs it, pixels.
 constexpr int kGrasp = 8;
+/// How often a window without events looks whether it shall end, milliseconds.
+constexpr unsigned long kReminderMs = 100;
 
 class Viewer {
  public:
@@ -57,6 +60,10 @@ class Viewer {
     resized->SetClientData(this);
     resized->SetCallback([](vtkObject*, unsigned long, void* self, void*) { static_cast<Viewer*>(self)->resize(); });
     window_->AddObserver(vtkCommand::WindowResizeEvent, resized);
+    vtkNew<vtkCallbackCommand> reminded;
+    reminded->SetClientData(this);
+    reminded->SetCallback([](vtkObject*, unsigned long, void* self, void*) { static_cast<Viewer*>(self)->look_up(); });
+    interactor_->AddObserver(vtkCommand::TimerEvent, reminded);
   }
 
   void run() {
@@ -64,7 +71,9 @@ class Viewer {
     refresh();
     std::cout << formatted("espdiff view: ready; h in the window shows the keys\n");
     std::fflush(stdout);
+    interactor_->CreateRepeatingTimer(kReminderMs);
     interactor_->Start();
+    if (cancel_.made()) throw Error(ErrorClass::kCancelled, "cancelled; what was saved is complete");
   }
 
  private:
@@ -92,6 +101,11 @@ class Viewer {
 
   void smooth_edges() {
     for (vtkRenderer* renderer : renderers()) renderer->UseFXAAOn();
+  }
+
+  /// VTK's loop of events knows nothing of signals.
+  void look_up() {
+    if (cancel_.made()) interactor_->TerminateApp();
   }
 
   void refresh() {
@@ -264,6 +278,7 @@ class Viewer {
   Overlay overlay_;
   std::string prefix_;
   bool drags_split_ = false;
+  const CancelRequest cancel_;
   std::optional<PickedPoint> picked_;
   std::vector<std::pair<vtkSmartPointer<vtkRenderer>, vtkSmartPointer<vtkActor>>> marks_;
 };

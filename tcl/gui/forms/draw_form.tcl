@@ -268,7 +268,7 @@ namespace eval ::espdiff::gui {
     proc save_picture_as {path} {
         variable shown
         if {[string tolower [file extension $path]] eq ".png"} {
-            espdiff figure $shown $path
+            espdiff figure $shown $path -overwrite 1
             show_message "Written: $path"
             return
         }

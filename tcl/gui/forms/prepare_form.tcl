@@ -129,13 +129,14 @@ namespace eval ::espdiff::gui {
         return $path
     }
 
-    # Prepares the side's molecule in the background.
+    # Prepares the side's molecule in the background, into a free file or one that the dialog has asked about.
     proc start_preparation {side path} {
         variable running
         variable preparing
         variable prepared
         if {$running ne ""} { error "a computation is running; wait for it, or cancel it" }
-        set words [list prepare [dict remove [molecule_endpoint $side] map] -pqr $path {*}[setting_options preparation]]
+        set words [list prepare [dict remove [molecule_endpoint $side] map] -pqr $path -overwrite 1 \
+            {*}[setting_options preparation]]
         set running [espdiff {*}$words -progress ::espdiff::gui::show_progress \
             -command [list ::espdiff::gui::guard ::espdiff::gui::finish_preparation $side]]
         set preparing $running

@@ -250,7 +250,7 @@ TEST_CASE("next: potential and prepare keep files that are there, and replace th
     REQUIRE_MESSAGE(first.status == 0, first.err);
     const Outcome refused = run_espdiff(run);
     CHECK(refused.status == 2);
-    CHECK_MESSAGE(contains(refused.err, " exists; --overwrite replaces it, another --output keeps it\nnext: espdiff "),
+    CHECK_MESSAGE(contains(refused.err, " exists; --overwrite replaces it, another name keeps it\nnext: espdiff "),
                   refused.err);
     const Outcome next = run_espdiff(next_words(refused.err));
     CHECK_MESSAGE(next.status == 0, next.err);

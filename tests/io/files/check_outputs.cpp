@@ -54,7 +54,7 @@ TEST_CASE("check_outputs keeps a file that is there unless it may be replaced; a
   const std::string there = folder.write("there", "x");
   CHECK(message_of([&] {
           check_outputs({}, {folder.file("new"), there}, false);
-        }) == there + " exists; overwrite replaces it, another output keeps it");
+        }) == there + " exists; overwrite replaces it, another name keeps it");
   CHECK_NOTHROW(check_outputs({}, {there}, true));
   CHECK_NOTHROW(check_outputs({}, {folder.file("new"), "", "/dev/null"}, false));
 }

@@ -37,6 +37,21 @@ std::string refusal(const std::string& path, Read read) {
   return "";
 }
 
+/// A triangle, all in words.
+std::string surface_of_text() {
+  return "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\">\n<Points>\n"
+         "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0.25 0 0 1 "
+         "0</DataArray></Points>\n"
+         "<PointData>\n"
+         "<DataArray type=\"Float64\" Name=\"source_position\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 "
+         "1 "
+         "0.75</DataArray>\n"
+         "<DataArray type=\"Float32\" Name=\"slip\" format=\"ascii\">1 nan 2</DataArray></PointData>\n<Polys>"
+         "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray>"
+         "<DataArray type=\"Int64\" Name=\"offsets\" "
+         "format=\"ascii\">3</DataArray></Polys></Piece></PolyData></VTKFile>\n";
+}
+
 std::string refusal_of_map(const std::string& name) {
   return refusal(corpus(name), [](const std::string& path) { read_grid(path); });
 }
@@ -234,6 +249,27 @@ TEST_CASE("hostile VTP: what crashed or hung VTK's reader is refused or read") {
   CHECK(
       contains(attempt(replaced(good, "NumberOfPoints=\"4\"", "NumberOfPoints=\"400000000\"")), "bytes, but its type"));
   CHECK(contains(attempt(replaced(good, "NumberOfPolys=\"4\"", "NumberOfPolys=\"-4\"")), "NumberOfPolys is -4"));
+}
+
+TEST_CASE("VTP: values that a surface cannot have are refused with the line of their array") {
+  const ScratchFolder scratch;
+  const auto attempt = [&](const std::string& old, const std::string& text) {
+    return refusal(scratch.write("a.vtp", replaced(surface_of_text(), old, text)),
+                   [](const std::string& path) { read_vtp(path); });
+  };
+  const std::string again = "; write or fetch the file again";
+  CHECK(attempt("", "") == "");
+  CHECK(attempt("nan", "0") == "");
+  for (const std::string text : {"nan", "-inf", "1e+30"}) {
+    const std::string what = " has the coordinate " + text + "; at most 10^6 Angstrom were expected" + again;
+    CHECK(attempt("0.25", text) == ":3: vertex 1" + what);
+    CHECK(attempt("0.75", text) == ":5: vertex 2" + what);
+  }
+  CHECK(attempt("nan", "inf") == ":6: array 'slip' has an infinite value; numbers or nan were expected" + again);
+  CHECK(attempt("0.75", "half") ==
+        ":5: value 9 of array 'source_position' is 'half', but a number was expected" + again);
+  CHECK(attempt(" 0.75", "") ==
+        ":5: array 'source_position' has 8 values, but its type and the number of points ask for 9" + again);
 }
 
 TEST_CASE("hostile VTP: more elements, and deeper ones, than are read are refused") {

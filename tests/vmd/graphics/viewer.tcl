@@ -64,6 +64,7 @@ test "a figure for print in VMD's view: the surface is where VMD shows it" {
     note "    from $middle to $right of the width"
     check "it moved to the right" {$right > $middle + 0.1}
     check_refused {espdiff figure $h $scratch/a.gif} {ESPDIFF INPUT} "a.gif" ".png"
+    check_refused {espdiff figure $h $scratch/right.png} {ESPDIFF INPUT} "right.png exists; -overwrite 1 replaces it"
     espdiff undraw
 }
 
@@ -79,7 +80,7 @@ test "a figure is as large as on the screen, fades to the same grey, and names t
         espdiff draw $h -range {-0.001 0.001} -potential-range {-0.001 0.001} -uncertain plain -surface $surface -view $view
         display update
         render snapshot $scratch/screen.tga
-        espdiff figure $h $scratch/large.png -width 900 -title $title
+        espdiff figure $h $scratch/large.png -width 900 -title $title -overwrite 1
         lassign [picture_of $scratch/screen.tga] middle - screen
         lassign [picture_of $scratch/large.png] place - figure
         note "    $surface, $view: $screen of the screen's width about $middle, $figure of the figure's about $place"
