@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <string>
 
 #include "base/error.h"
@@ -288,6 +289,19 @@ void subtract_bulk(FourierGrid<T>& grid, const MapGrid& map, double all) {
   });
 }
 
+std::shared_ptr<const MapOrigin> origin_of(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                                           const PmeCell& cell, const PmeOptions& options,
+                                           const RigidTransform& to_map) {
+  auto origin = std::make_shared<MapOrigin>();
+  origin->method = PotentialMethod::kPme;
+  origin->positions = positions;
+  origin->to_map = to_map;
+  origin->charges = charges;
+  origin->cell = cell;
+  origin->pme = options;
+  return origin;
+}
+
 double sum_of(const std::vector<double>& weights) {
   double sum = 0;
   for (const double w : weights) sum += w;
@@ -342,20 +356,18 @@ std::shared_ptr<MapGrid> PmeSolver::potential(const std::vector<Vec3d>& position
   check_memory(options);
   scale_of(checked_volume(cell), options);  // before any work
   auto map = std::make_shared<MapGrid>();
+  // A million atoms are copied while others are sent to the device.
+  constexpr std::size_t kManyAtoms = 200000;
+  std::future<std::shared_ptr<const MapOrigin>> origin =
+      std::async(positions.size() < kManyAtoms ? std::launch::deferred : std::launch::async,
+                 [&] { return origin_of(positions, charges, cell, options, to_map); });
   Buffer<GridCharge> placed = place_charges(positions, charges, GridPlaces(cell, options));
   if (options.precision == Precision::kDouble) {
     solve(double_, std::move(placed), cell, options, *map, progress);
   } else {
     solve(single_, std::move(placed), cell, options, *map, progress);
   }
-  auto origin = std::make_shared<MapOrigin>();
-  origin->method = PotentialMethod::kPme;
-  origin->positions = positions;
-  origin->to_map = to_map;
-  origin->charges = charges;
-  origin->cell = cell;
-  origin->pme = options;
-  map->origin = std::move(origin);
+  map->origin = origin.get();
   map->lattice = lattice_over(cell, options.size);
   map->unit = PotentialUnit::kKtPerE;
   map->periodic = true;

@@ -168,7 +168,7 @@ void compute_one_by_one(Engine& engine, std::size_t n_items, const std::function
 
 Workers workers_for(const Engine& engine, std::size_t n_items, double bytes_each) {
   // A GPU is kept busy by about seven threads.
-  constexpr int kMostOnGpu = 8;
+  constexpr int kMostOnGpu = 16;
   const bool is_cpu = engine.n_threads() > 0;
   const int n_threads = is_cpu ? engine.n_threads() : available_threads();
   const double held = std::min(available_memory() / bytes_each, static_cast<double>(n_items));
