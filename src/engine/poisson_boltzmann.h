@@ -40,17 +40,22 @@ struct PoissonBoltzmannOptions {
   DielectricBoundary dielectric_boundary = DielectricBoundary::kMolecular;
   DielectricSmoothing smoothing = DielectricSmoothing::kEdges;
   FarBoundary far_boundary = FarBoundary::kDebyeHueckel;
-  bool nonlinear = false;      ///< sinh(phi) instead of phi for the ions
-  double tolerance = 1e-6;     ///< of the residual's norm, relative to the right-hand side's
-  int max_cycles = 100;        ///< of multigrid-preconditioned conjugate gradients; for each Newton step
-  int max_newton_steps = 50;   ///< of the nonlinear equation
-  bool keep_operator = false;  ///< keeps the linear equation's coefficients for contributions(), a byte a point
+  bool nonlinear = false;  ///< sinh(phi) instead of phi for the ions
+  /// Of the error that the iteration leaves at the surface, relative to the potential's rms there. Of the nonlinear
+  /// equation, and where there is no boundary: of the residual's norm, relative to the right-hand side's.
+  double tolerance = 1e-4;
+  int max_cycles = 100;       ///< of multigrid-preconditioned conjugate gradients; for each Newton step
+  int max_newton_steps = 50;  ///< of the nonlinear equation
+  /// For contributions(): keeps the linear equation's coefficients, a byte a point, and solves it to what the sum of
+  /// the contributions can be compared with, if that is more exact than `tolerance`.
+  bool keep_operator = false;
 };
 
 /// How a potential was computed.
 struct PoissonBoltzmannReport {
   double start_residual = 0;     ///< |b - A phi| / |b| of the start
-  double relative_residual = 0;  ///< the same at the end, in double precision; never above the tolerance
+  double relative_residual = 0;  ///< the same at the end, in double precision
+  double surface_error = 0;      ///< what `tolerance` is of, as estimated at the end; never above it
   int cycles = 0;                ///< of conjugate gradients, all steps together
   int newton_steps = 0;          ///< 0 for the linearized equation
   int levels = 0;                ///< of the multigrid; 0 for the nonlinear equation, which makes a new one in each step

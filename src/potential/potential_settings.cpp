@@ -83,7 +83,8 @@ void add_pb_settings(std::vector<PotentialSetting>& all) {
   all.push_back({"tolerance", kPb,
                  Rows::number(
                      "pb-tolerance", "", kPositive, [](auto& o) -> auto& { return o.pb.tolerance; },
-                     "Residual at which the iteration ends, relative to the right-hand side")});
+                     "Error that the iteration may leave in the potentials at the surface, relative to their rms; of "
+                     "the nonlinear equation: residual, relative to the right-hand side")});
   all.push_back({"max_cycles", kPb,
                  Rows::count(
                      "pb-max-cycles", "", kFromOne, [](auto& o) -> auto& { return o.pb.max_cycles; },

@@ -105,8 +105,9 @@ void print_kind_of_potential(std::ostream& out, const Record& record) {
     std::string text = formatted("%.4g", r.number("/net_charge")) + " e in " +
                        counted(r.count("/n_charges"), "charge") + "; zero " + r.text("/zero");
     if (r.has("/relative_residual"))
-      text += "; residual " + formatted("%.1e", r.number("/relative_residual")) + " after " +
-              counted(r.count("/cycles"), "cycle");
+      text += (r.has("/surface_error") ? "; error " + formatted("%.1e", r.number("/surface_error"))
+                                       : "; residual " + formatted("%.1e", r.number("/relative_residual"))) +
+              " after " + counted(r.count("/cycles"), "cycle");
     print_line(out, "Of the " + side, text);
   }
   for (const std::string& note : record.texts("/potential/notes")) print_line(out, "Note", note);

@@ -5,11 +5,12 @@
 #include <utility>
 
 #include "cuda/potential/pb/multigrid.h"
+#include "cuda/potential/pb/surface_error.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 
 struct SolverOptions {
-  double tolerance = 1e-6;  ///< of |b - A x| / norm
+  double tolerance = 1e-6;  ///< of the error at the surface, where one is given; otherwise of |b - A x| / norm
   double norm = 1;          ///< residuals are relative to it
   int max_cycles = 100;
 };
@@ -17,6 +18,7 @@ struct SolverOptions {
 struct SolverReport {
   double start_residual = 0;     ///< of the start, relative
   double relative_residual = 0;  ///< computed from b - A x at the end, not carried along
+  double surface_error = 0;      ///< estimated, relative; the residual without a surface
   int cycles = 0;
   bool converged = false;
 };
@@ -43,13 +45,17 @@ using RightHandSide = std::function<void(Buffer<float>& b)>;
 /// Rounding x to single precision alone can leave a residual above the tolerance. So x gets a second part after a
 /// restart, which takes the corrections (iterative refinement), and true residuals are computed in double precision
 /// from both. The caller gets their sum, rounded once.
+///
+/// With a surface the iteration ends when the error there is small enough, and a true residual is too large if it is
+/// more than twice the recursion's.
 /// @param b     called for each true residual, so that no array holds it meanwhile
 /// @param x     [point] start and result; its border has the Dirichlet values. A start with a residual above 1, worse
 ///              than zero, is replaced by zero.
-/// @param step  called after each cycle with the relative residual
+/// @param step  called after each cycle with what is compared with the tolerance
+/// @param surface where the error counts; null for the residual alone
 SolverReport conjugate_gradients(const GridOperator& a, Multigrid& preconditioner, const RightHandSide& b,
                                  const SolverOptions& options, SolverWork& work, Buffer<float>& x,
-                                 const std::function<void(double)>& step);
+                                 const std::function<void(double)>& step, SurfaceError* surface = nullptr);
 
 /// Receives each search direction p [point] and its length alpha: x = sum of alpha p.
 using TakeDirection = std::function<void(double alpha, const Buffer<float>& p)>;

@@ -88,7 +88,7 @@ NewtonReport newton(GridOperator& on_grid, const Buffer<float>& k, const Buffer<
     norm = nonlinear_residual(on_grid, k, x, b, {x, low}, residual);
   }
   for (;;) {
-    told.relative_residual = norm / options.norm;
+    told.relative_residual = told.surface_error = norm / options.norm;
     told.converged = told.relative_residual <= options.tolerance;
     if (told.converged || report.steps >= max_steps || !std::isfinite(norm)) return report;
     Multigrid multigrid(on_grid);

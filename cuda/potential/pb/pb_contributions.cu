@@ -26,13 +26,14 @@ namespace {
 using AfterCycle = std::function<void(double)>;
 
 /// A residual r of a reading's solution changes the sum of its contributions by r . phi. r oscillates from point to
-/// point, where phi is smooth: at three times the usual 1e-6 the sum changes by at most 7e-7 kT/e where potentials are
+/// point, where phi is smooth: at a residual of 3e-6 the sum changes by at most 7e-7 kT/e where potentials are
 /// about 1 kT/e, that is by 5e-6 of a reading of which a tenth is left. Where less is left, the tolerance is smaller in
 /// proportion; below a tenth of the potential's, the potential's own residual is the larger one.
 double reading_tolerance(const PoissonBoltzmannOptions& options, double share_left) {
   constexpr double kLargest = 1e-4, kLargestFactor = 3, kLeastFactor = 0.1, kFactorOfShare = 25;
   const double factor = std::max(kLeastFactor, std::min(kLargestFactor, kFactorOfShare * share_left));
-  return std::min(factor * options.tolerance, std::max(options.tolerance, kLargest));
+  const double residual = std::min(options.tolerance, kResidualForReadings);
+  return std::min(factor * residual, std::max(residual, kLargest));
 }
 
 /// The transposes on one grid, for several readings. All is public: nvcc takes no device lambdas in private members.

@@ -88,9 +88,9 @@ void require_converged(const PoissonBoltzmannOptions& o, const SolverReport& sol
                   solved.relative_residual, steps, solved.cycles, o.tolerance));
   }
   throw ConvergenceError(
-      formatted("the Poisson-Boltzmann equation did not converge: the relative residual is %.3g after %d cycles, "
+      formatted("the Poisson-Boltzmann equation did not converge: the relative error is %.3g after %d cycles, "
                 "%.3g is asked for; allow more cycles, or a larger tolerance",
-                solved.relative_residual, solved.cycles, o.tolerance));
+                solved.surface_error, solved.cycles, o.tolerance));
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -22,6 +22,9 @@ struct PbConstants {
 };
 PbConstants pb_constants(const PoissonBoltzmannOptions& options);
 
+/// The residual that a potential has at most from which contributions are read.
+constexpr double kResidualForReadings = 1e-6;
+
 /// Of a border without the solute's dielectric.
 DebyeHueckel border_law(const PbConstants& constants, const PoissonBoltzmannOptions& options);
 

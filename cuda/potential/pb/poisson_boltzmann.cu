@@ -92,14 +92,15 @@ void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& p
   const SortedCharges<double> charges = charges_on_grid(problem.atoms, lattice, problem.constants.coulomb);
   const RightHandSide b = [&](Buffer<float>& values) { spread_rounded(charges, raw(values)); };
   SolverOptions solver;
-  solver.tolerance = options.tolerance;
+  // The error at the surface is then about three times the residual.
+  solver.tolerance = options.keep_operator ? std::min(options.tolerance, 3 * kResidualForReadings) : options.tolerance;
   solver.max_cycles = options.max_cycles;
   const auto set_norm = [&](SolverWork& work) {
     b(work.r);
     solver.norm = std::sqrt(dot_product(work.r, work.r));
   };
-  const auto step = [&](double residual) {
-    const double part = std::log(residual) / std::log(options.tolerance);
+  const auto step = [&](double error) {
+    const double part = std::log(error) / std::log(solver.tolerance);
     problem.progress.report("potential", 0.2 + 0.8 * std::min(1.0, std::max(0.0, part)));
   };
   SolverReport solved;
@@ -112,6 +113,7 @@ void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& p
     solved = newton_report.solver;
     report.newton_steps = newton_report.steps;
   } else {
+    SurfaceError surface(on_grid);
     const auto packed = PackedOperator::pack(on_grid, usual_coefficients(lattice, problem.constants, options));
     if (kept != nullptr) *kept = packed;
     add_faces_to_diagonal(on_grid);
@@ -119,8 +121,9 @@ void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& p
     report.levels = multigrid.n_levels();
     SolverWork work(lattice.n_points(), hold_packed(on_grid, packed));
     set_norm(work);
-    solved = conjugate_gradients(on_grid, multigrid, b, solver, work, phi, step);
+    solved = conjugate_gradients(on_grid, multigrid, b, solver, work, phi, step, &surface);
   }
+  report.surface_error = solved.surface_error;
   report.relative_residual = solved.relative_residual;
   report.start_residual = solved.start_residual;
   report.cycles = solved.cycles;

@@ -62,6 +62,7 @@ void add_pb(Json& json, const MapRecipe& r) {
   json["grid_origin_A"] = vector(r.pb_lattice.origin);
   json["start_residual"] = json_number(report.start_residual);
   json["relative_residual"] = json_number(report.relative_residual);
+  json["surface_error"] = json_number(report.surface_error);
   json["cycles"] = report.cycles;
   json["newton_steps"] = report.newton_steps;
   json["levels"] = report.levels;

@@ -252,9 +252,8 @@ TEST_CASE("a molecule that Poisson-Boltzmann cannot take is refused by one line 
         "espdiff: " + bare +
             ": atom 8 has a charge of 0.5 and a radius of 0, and lies in no other atom: its charge would "
             "be bare in the solvent; give it a radius\n");
-  CHECK(contains(
-      refused(other + " --pb-max-cycles 1", 1),
-      "espdiff: " + molecule + ": the Poisson-Boltzmann equation did not converge: the relative residual is "));
+  CHECK(contains(refused(other + " --pb-max-cycles 1", 1),
+                 "espdiff: " + molecule + ": the Poisson-Boltzmann equation did not converge: the relative error is "));
   CHECK(contains(refused(other + " --pb-max-cycles 1", 1),
                  " after 1 cycles, 1e-06 is asked for; allow more cycles, or a larger tolerance\n"));
   const std::string too_large = refused(other, 1, "0.03");
