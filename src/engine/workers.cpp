@@ -167,7 +167,7 @@ void compute_one_by_one(Engine& engine, std::size_t n_items, const std::function
 }  // namespace
 
 Workers workers_for(const Engine& engine, std::size_t n_items, double bytes_each) {
-  // A GPU is kept busy by about seven threads.
+  // A pair takes the host several times as long as a card.
   constexpr int kMostOnGpu = 16;
   const bool is_cpu = engine.n_threads() > 0;
   const int n_threads = is_cpu ? engine.n_threads() : available_threads();
