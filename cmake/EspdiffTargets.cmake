@@ -38,3 +38,29 @@ function(espdiff_optimize_little)
     target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:Release>>:-O1>)
   endforeach()
 endfunction()
+
+# espdiff_table_of(OUTPUT HEADER TYPE TABLE SUFFIX NAME...): writes a source with TABLE(), a std::vector of what the
+# functions NAME_SUFFIX() return, in the order of the names. HEADER declares TYPE and TABLE().
+function(espdiff_table_of output header type table suffix)
+  set(declarations "")
+  set(calls "")
+  foreach(name ${ARGN})
+    string(APPEND declarations "${type} ${name}_${suffix}();\n")
+    string(APPEND calls "${name}_${suffix}(), ")
+  endforeach()
+  cmake_path(GET output FILENAME file)
+  file(CONFIGURE OUTPUT ${output} @ONLY CONTENT
+"// @file@: a table, made from the list in src/CMakeLists.txt.
+#include \"@header@\"
+
+namespace espdiff {
+
+@declarations@
+const std::vector<@type@>& @table@() {
+  static const std::vector<@type@> all = {@calls@};
+  return all;
+}
+
+}  // namespace espdiff
+")
+endfunction()

@@ -210,7 +210,8 @@ ESPDIFF_INLINE void visit_places(const SlipInputs& in, std::int32_t pair, const 
   }
 }
 
-ESPDIFF_INLINE void slip_of_block(const SlipInputs& in, const PointList& list, std::size_t block) {
+ESPDIFF_INLINE void slip_of_block(const SlipInputs& in, const SharedAtoms& near, const PointList& list,
+                                  std::size_t block) {
   std::int32_t pairs[kMostAtoms];
   Lanes gaussians[kMostAtoms];
   std::size_t n = 0;
@@ -223,7 +224,7 @@ ESPDIFF_INLINE void slip_of_block(const SlipInputs& in, const PointList& list, s
     pz[lane] = p.z;
   }
   Lanes all{}, paired{}, x{}, y{}, z{};
-  sum_at_block(in.cells, list, block,
+  sum_at_block(in.cells, near, list, block,
                [&](std::uint32_t a, float, const Lanes&, const Lanes&, const Lanes&, const Lanes&,
                    const Lanes& gaussian) ESPDIFF_INLINE_LAMBDA {
                  all += gaussian;
@@ -260,7 +261,9 @@ ESPDIFF_INLINE void slip_of_block(const SlipInputs& in, const PointList& list, s
 
 ESPDIFF_MULTIVERSION void slip_of_blocks(const SlipInputs& in, const PointList& list, std::size_t first,
                                          std::size_t last) {
-  for (std::size_t block = first; block < last; ++block) slip_of_block(in, list, block);
+  SharedAtoms near;
+  near.find(in.cells, list, first, last);
+  for (std::size_t block = first; block < last; ++block) slip_of_block(in, near, list, block);
 }
 
 #endif

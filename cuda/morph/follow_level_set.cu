@@ -44,6 +44,16 @@ struct ReturningVertices {
   float isovalue;
 };
 
+/// Where vertices were after an earlier return.
+struct SettledVertices {
+  const Vec4f* x;
+  std::size_t n;
+
+  ESPDIFF_INLINE bool holds(const Vec4f* now, std::size_t v) const {
+    return v < n && x[v].x == now[v].x && x[v].y == now[v].y && x[v].z == now[v].z;
+  }
+};
+
 /// One step of Newton's method at a vertex.
 /// @param last whether no other step follows
 /// @returns whether the vertex needs none
@@ -68,14 +78,17 @@ ESPDIFF_INLINE bool return_step(const ReturningVertices& in, std::size_t v, cons
 
 }  // namespace
 
-void return_vertex_by_vertex(MovingSurface& surface, const MovingAtoms& atoms, float isovalue) {
+void return_vertex_by_vertex(MovingSurface& surface, const MovingAtoms& atoms, float isovalue,
+                             const Buffer<Vec4f>& settled) {
   const Buffer<Vec4f> before = surface.x;
   const ReturningVertices in{view_of(surface), raw(before), isovalue};
   const AtomCellsView cells = atoms.cells->view();
   const AtomChange* const changes = raw(atoms.change);
   const std::uint32_t* const list = raw(surface.order);
+  const SettledVertices there{raw(settled), settled.size()};
   for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t i) {
     const std::uint32_t v = list[i];
+    if (there.holds(in.surface.x, v)) return;
     for (int step = 0; step <= kMaxReturnSteps; ++step) {
       const FlowSample sample = flow_at(cells, changes, in.surface.x[v].xyz());
       if (return_step(in, v, sample, step == kMaxReturnSteps)) return;
@@ -83,9 +96,10 @@ void return_vertex_by_vertex(MovingSurface& surface, const MovingAtoms& atoms, f
   });
 }
 
-void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float isovalue) {
+void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float isovalue,
+                         const Buffer<Vec4f>& settled) {
 #if defined(__CUDACC__)
-  return_vertex_by_vertex(surface, atoms, isovalue);
+  return_vertex_by_vertex(surface, atoms, isovalue, settled);
 #else
   // Converged vertices leave the list, so all passes but the first are short.
   const std::size_t n = surface.x.size();
@@ -97,6 +111,11 @@ void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float
   Buffer<std::uint8_t> done_flags(n, 0);
   std::uint8_t* const done = raw(done_flags);
   std::size_t n_pending = n;
+  if (!settled.empty()) {
+    const SettledVertices there{raw(settled), settled.size()};
+    for_each_index(n, [=](std::size_t v) { done[v] = there.holds(in.surface.x, v) ? 1 : 0; });
+    n_pending = drop_done(pending, n_pending, done_flags);
+  }
   for (int step = 0; n_pending > 0 && step <= kMaxReturnSteps; ++step) {
     flow_at_points(atoms, surface.x, pending, n_pending, sampled);
     const std::uint32_t* const list = raw(pending);

@@ -117,7 +117,7 @@ MorphResult project_ends(const MovingSurface& surface, const SurfaceMesh& mesh, 
   source.topology = mapped.topology = surface.topology;
   source.positions = surface.source;
   mapped.positions = surface.x;
-  auto on_source = project(source, source_atoms, isovalue, kLastShift_A);
+  auto on_source = project(source, source_atoms, isovalue, kLastShift_A, mesh.n_vertices());
   copy_on_device(raw(on_source->positions), raw(mesh.positions), mesh.n_vertices() * sizeof(Vec4f));
   MorphResult result;
   result.source = on_source;
@@ -169,10 +169,12 @@ MorphResult run_steps(MovingSurface surface, const SurfaceMesh& mesh, const std:
   return_to_level_set(surface, now, isovalue);
   surface.previous = surface.flow;
   now = atoms_at(atoms, 1.0 / n_steps);
+  Buffer<Vec4f> settled;
   for (int step = 1; step <= n_steps; ++step) {
     progress.report(stage, static_cast<double>(step - 1) / n_steps);
     advance(surface, 1.0F / static_cast<float>(n_steps));
     return_to_level_set(surface, now, isovalue);
+    if (step == n_steps) settled = surface.x;
     remove_torn_triangles(surface);
     smooth_tangentially(surface);
     const LongEdges edges = find_long_edges(surface, max_edge, max_stretch);
@@ -182,7 +184,8 @@ MorphResult run_steps(MovingSurface surface, const SurfaceMesh& mesh, const std:
   }
   // The vertices added or moved in the last step lie beside the level set.
   for (int round = 0; round < kLastRounds; ++round) {
-    return_to_level_set(surface, now, isovalue);
+    return_to_level_set(surface, now, isovalue, settled);
+    settled = surface.x;
     remove_torn_triangles(surface);
     if (round + 1 < kLastRounds) smooth_tangentially(surface);
   }

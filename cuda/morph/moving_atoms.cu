@@ -21,9 +21,9 @@ MovingSampling sampling(const MovingAtoms& atoms, const Buffer<Vec4f>& points, c
 
 #if !defined(__CUDACC__)
 
-ESPDIFF_INLINE void sample_moving_block(const MovingSampling& in, std::size_t block) {
+ESPDIFF_INLINE void sample_moving_block(const MovingSampling& in, const SharedAtoms& near, std::size_t block) {
   FlowSums<Lanes> sum;
-  sum_at_block(in.cells, in.points, block,
+  sum_at_block(in.cells, near, in.points, block,
                [&](std::uint32_t a, float k, const Lanes& dx, const Lanes& dy, const Lanes& dz, const Lanes& square,
                    const Lanes& gaussian)
                    ESPDIFF_INLINE_LAMBDA { add_atom(sum, in.change[a], k, dx, dy, dz, square, gaussian); });
@@ -36,7 +36,9 @@ ESPDIFF_INLINE void sample_moving_block(const MovingSampling& in, std::size_t bl
 }
 
 ESPDIFF_MULTIVERSION void sample_moving_blocks(const MovingSampling& in, std::size_t first, std::size_t last) {
-  for (std::size_t block = first; block < last; ++block) sample_moving_block(in, block);
+  SharedAtoms near;
+  near.find(in.cells, in.points, first, last);
+  for (std::size_t block = first; block < last; ++block) sample_moving_block(in, near, block);
 }
 
 #endif

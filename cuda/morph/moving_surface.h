@@ -57,10 +57,14 @@ void advance(MovingSurface& surface, float dt);
 
 /// Returns vertices to the level set by Newton's method and evaluates the flow there; vertices that cannot return
 /// become unmatched (follow_level_set.cu).
-void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float isovalue);
+/// @param settled  [vertex] positions after an earlier call with the same atoms: vertices that are still there keep
+///                 place and flow; empty, or for vertices that were added since, none do
+void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float isovalue,
+                         const Buffer<Vec4f>& settled = {});
 
 /// The general form, in which each vertex takes all its steps at once; gives the same bits.
-void return_vertex_by_vertex(MovingSurface& surface, const MovingAtoms& atoms, float isovalue);
+void return_vertex_by_vertex(MovingSurface& surface, const MovingAtoms& atoms, float isovalue,
+                             const Buffer<Vec4f>& settled = {});
 
 /// Removes triangles that have an unmatched vertex or are flipped. Vertices become unmatched if their normal is flipped
 /// or no triangle remains at them (remove_torn_triangles.cu).

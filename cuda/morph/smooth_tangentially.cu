@@ -31,16 +31,22 @@ ESPDIFF_INLINE float least_altitude(const Vec4f* x, const Corners& c) {
 
 void smooth_tangentially(MovingSurface& surface) {
   Buffer<Vec4f> smoothed(surface.n_vertices());
+  Buffer<float> qualities(surface.n_triangles());
   const MovingSurfaceView s = view_of(surface);
   Vec4f* const to = raw(smoothed);
+  float* const quality = raw(qualities);
+  for_each_index(surface.n_triangles(),
+                 [=] ESPDIFF_HD(std::size_t t) { quality[t] = shape_quality(s.x, s.topology.triangles[t]); });
   for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
     to[v] = s.x[v];
     if (s.unmatched[v] != 0) return;
     float now = 1.0F, before = 1.0F, altitude = 1e30F;
+    for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n)
+      now = smaller(now, quality[s.topology.incident[n]]);
+    if (now >= kKeptQuality) return;  // whatever it was on the source
     for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n) {
       const std::uint32_t t = s.topology.incident[n];
       if (s.removed[t] != 0) return;  // at a border
-      now = smaller(now, shape_quality(s.x, s.topology.triangles[t]));
       before = smaller(before, shape_quality(s.source, s.topology.triangles[t]));
       altitude = smaller(altitude, least_altitude(s.x, s.topology.triangles[t]));
     }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cuda/device/quad.h"
 #include "cuda/surface/density/charge_sums.h"
 #include "cuda/surface/density/grid.h"
 #include "cuda/surface/mesh/mesh.h"
@@ -86,7 +87,7 @@ ESPDIFF_INLINE CellPosition locate(const CubicLattice& lattice, Vec3f p, int mar
   return at;
 }
 
-ESPDIFF_INLINE Vec4f mix(Vec4f a, Vec4f b, float t) { return a + t * (b - a); }
+ESPDIFF_INLINE Quad mix(const Quad& a, const Quad& b, float t) { return a + t * (b - a); }
 
 /// Trilinear interpolation; clamped at the border.
 ESPDIFF_INLINE Vec4f sample_trilinear(const CubicLattice& lattice, const Vec4f* values, Vec3f p) {
@@ -94,9 +95,10 @@ ESPDIFF_INLINE Vec4f sample_trilinear(const CubicLattice& lattice, const Vec4f* 
   const std::size_t nx = static_cast<std::size_t>(lattice.size[0]),
                     nxy = nx * static_cast<std::size_t>(lattice.size[1]);
   const Vec4f* const v = values + lattice.index(at.base[0], at.base[1], at.base[2]);
-  const Vec4f near_low = mix(v[0], v[1], at.part[0]), near_high = mix(v[nx], v[nx + 1], at.part[0]);
-  const Vec4f far_low = mix(v[nxy], v[nxy + 1], at.part[0]), far_high = mix(v[nxy + nx], v[nxy + nx + 1], at.part[0]);
-  return mix(mix(near_low, near_high, at.part[1]), mix(far_low, far_high, at.part[1]), at.part[2]);
+  const auto along_x = [&](std::size_t row)
+                           ESPDIFF_INLINE_LAMBDA { return mix(quad_of(v[row]), quad_of(v[row + 1]), at.part[0]); };
+  const Quad near_low = along_x(0), near_high = along_x(nx), far_low = along_x(nxy), far_high = along_x(nxy + nx);
+  return vec4_of(mix(mix(near_low, near_high, at.part[1]), mix(far_low, far_high, at.part[1]), at.part[2]));
 }
 
 /// Catmull-Rom weights of the four points around t in [0, 1].

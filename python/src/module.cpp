@@ -30,7 +30,7 @@
 #include "study/matrix_settings.h"
 #include "trajectory/trajectory_settings.h"
 #ifdef ESPDIFF_HAVE_HDF5
-#include "ensemble/ensemble_settings.h"
+#include "ensemble/ensemble_study.h"
 #endif
 
 namespace nb = nanobind;

@@ -12,6 +12,7 @@
 #include "ensemble/frames/ensemble_plan.h"
 #include "mapping/input.h"
 #include "matrix/matrix.h"
+#include "options/option_row.h"
 
 namespace espdiff {
 
@@ -23,6 +24,26 @@ struct EnsembleRun {
   bool resume = false, overwrite = false;
   bool skip_errors = false;  ///< a frame that cannot be mapped has no values, and the run continues
 };
+
+/// The options of these, where `at` finds them in what is asked for; in the order of the manuals.
+template <typename Study, typename At>
+std::vector<OptionRow<Study>> run_rows(At at) {
+  using Rows = RowsOf<Study>;
+  const std::string group = "Run";
+  return {
+      Rows::boolean(
+          "resume", group, [at](auto& o) -> auto& { return at(o).resume; },
+          "Continue OUT.h5 of an interrupted run; a complete one gets new statistics"),
+      Rows::boolean(
+          "overwrite", group, [at](auto& o) -> auto& { return at(o).overwrite; }, "Replace OUT.h5 if it exists"),
+      Rows::template choice_of<bool>(
+          "on-error", group, {{"stop", false}, {"skip", true}}, [at](auto& o) -> auto& { return at(o).skip_errors; },
+          "A frame that cannot be mapped stops the run, or has no values"),
+      Rows::parsed(
+          "shard", group, [at](Study& o, const std::string& text) { at(o).shard = parse_shard(text); },
+          [at](const Study& o) { return to_string(at(o).shard); },
+          "Map part I of N of the frames, I/N, into OUT.shard-I-of-N.h5; `espdiff merge` merges the parts")};
+}
 
 struct EnsembleReport {
   std::string path;                                     ///< of the file

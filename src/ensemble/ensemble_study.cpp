@@ -20,6 +20,30 @@
 namespace espdiff {
 namespace {
 
+/// The options of the study itself.
+std::vector<OptionRow<EnsembleStudy>> answer_rows() {
+  using Rows = RowsOf<EnsembleStudy>;
+  const std::string group = "Statistics";
+  return {
+      Rows::file(
+          "from", group, [](auto& o) -> auto& { return o.from; },
+          "Compute the statistics of this complete OUT.h5 again; maps nothing, unless causes are asked for. Groups are "
+          "then of its replicates: a name and members, each NAME, GROUP/NAME, or with some of its frames, w1@0:49"),
+      Rows::boolean(
+          "check-template", group, [](auto& o) -> auto& { return o.check_template; },
+          "Map the medoid of each group onto every frame as well, and tell how much of the answer stays. Takes as long "
+          "again for each group; files OUT.template-GROUP.h5"),
+      Rows::text(
+          "regress", group, [](auto& o) -> auto& { return o.regress; },
+          "FILE.csv:COLUMN: a value of each replicate, such as an activity, regressed on the surface, with the same "
+          "control of errors, and predicted from the other replicates (OUT.regression.csv). The table has the columns "
+          "replicate and COLUMN, and group unless names are unique"),
+      Rows::boolean(
+          "states", group, [](auto& o) -> auto& { return o.states; },
+          "Compare every frame with every other one through the template (OUT.states.csv), and find the principal "
+          "components of the potential: scores in OUT.components.csv, modes as component_1 to 3 in OUT.vtp")};
+}
+
 /// The file of FILE.csv:COLUMN.
 std::string file_of_column(const std::string& text) { return text.substr(0, text.rfind(':')); }
 
@@ -200,6 +224,18 @@ void open_earlier(const EnsembleStudy& study, const std::function<std::unique_pt
 }
 
 }  // namespace
+
+const std::vector<OptionRow<EnsembleStudy>>& ensemble_settings() {
+  static const std::vector<OptionRow<EnsembleStudy>> all = [] {
+    std::vector<OptionRow<EnsembleStudy>> rows;
+    for (const auto& made : {input_rows<EnsembleStudy>([](auto& o) -> auto& { return o.inputs; }),
+                             run_rows<EnsembleStudy>([](auto& o) -> auto& { return o.run; }), answer_rows(),
+                             statistics_rows<EnsembleStudy>([](auto& o) -> auto& { return o.statistics; })})
+      rows.insert(rows.end(), made.begin(), made.end());
+    return rows;
+  }();
+  return all;
+}
 
 EnsembleAnswer::EnsembleAnswer() = default;
 EnsembleAnswer::EnsembleAnswer(EnsembleAnswer&&) noexcept = default;

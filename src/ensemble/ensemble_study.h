@@ -14,6 +14,7 @@
 #include "ensemble/ensemble_run.h"
 #include "ensemble/frames/ensemble_inputs.h"
 #include "ensemble/result/ensemble_result.h"
+#include "options/option_row.h"
 #include "options/options.h"
 
 namespace espdiff {
@@ -32,6 +33,10 @@ struct EnsembleStudy {
                                         ///< see relabel()
   std::vector<std::string> read_files;  ///< further files that no output may replace, such as a list
 };
+
+/// The options of an ensemble besides those of a comparison, once for the command line, Tcl and Python, in the order of
+/// the manuals.
+const std::vector<OptionRow<EnsembleStudy>>& ensemble_settings();
 
 /// A field besides the potential: its file, and its statistics, which are those of an ensemble of its own.
 struct FieldAnswer {

@@ -24,7 +24,7 @@
 #include "vmdplugin/bridge/molfile_bridge.h"
 #include "vmdplugin/values/option_spelling.h"
 #ifdef ESPDIFF_HAVE_HDF5
-#include "ensemble/ensemble_settings.h"
+#include "ensemble/ensemble_study.h"
 #endif
 #include "prepare/charges/pdb2pqr.h"
 #include "report/records/metrics.h"

@@ -3,7 +3,7 @@
 #include "vmdplugin/values/tcl_values.h"
 #ifdef ESPDIFF_HAVE_HDF5
 #include "engine/engine.h"
-#include "ensemble/ensemble_settings.h"
+#include "ensemble/ensemble_study.h"
 #include "io/files/sha256.h"
 #include "matrix/matrix_run.h"
 #include "vmdplugin/objects/ensemble_object.h"

@@ -71,10 +71,10 @@ void read_by_points(const Reading& in, AtomWeight weight) {
 
 #if !defined(__CUDACC__)
 
-ESPDIFF_INLINE void mean_block(const Reading& in, std::size_t block) {
+ESPDIFF_INLINE void mean_block(const Reading& in, const SharedAtoms& near, std::size_t block) {
   ValueSums<Lanes> sums;
   sum_at_block(
-      in.cells, in.points, block,
+      in.cells, near, in.points, block,
       [&](std::uint32_t a, float, const Lanes&, const Lanes&, const Lanes&, const Lanes&, const Lanes& gaussian)
           ESPDIFF_INLINE_LAMBDA { sums.add(in.values[a].value, in.values[a].has_value, gaussian); });
   const std::size_t begin = block * kBlock;
@@ -84,7 +84,9 @@ ESPDIFF_INLINE void mean_block(const Reading& in, std::size_t block) {
 }
 
 ESPDIFF_MULTIVERSION void mean_blocks(const Reading& in, std::size_t first, std::size_t last) {
-  for (std::size_t block = first; block < last; ++block) mean_block(in, block);
+  SharedAtoms near;
+  near.find(in.cells, in.points, first, last);
+  for (std::size_t block = first; block < last; ++block) mean_block(in, near, block);
 }
 
 #endif

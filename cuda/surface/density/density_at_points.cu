@@ -14,9 +14,9 @@ struct Sampling {
 
 #if !defined(__CUDACC__)
 
-ESPDIFF_INLINE void sample_block(const Sampling& in, std::size_t block) {
+ESPDIFF_INLINE void sample_block(const Sampling& in, const SharedAtoms& near, std::size_t block) {
   DensitySums<Lanes> sum;
-  sum_at_block(in.cells, in.points, block,
+  sum_at_block(in.cells, near, in.points, block,
                [&](std::uint32_t, float k, const Lanes& dx, const Lanes& dy, const Lanes& dz, const Lanes&,
                    const Lanes& gaussian) ESPDIFF_INLINE_LAMBDA { add_atom(sum, k, dx, dy, dz, gaussian); });
   const std::size_t begin = block * kBlock;
@@ -26,7 +26,9 @@ ESPDIFF_INLINE void sample_block(const Sampling& in, std::size_t block) {
 }
 
 ESPDIFF_MULTIVERSION void sample_blocks(const Sampling& in, std::size_t first, std::size_t last) {
-  for (std::size_t block = first; block < last; ++block) sample_block(in, block);
+  SharedAtoms near;
+  near.find(in.cells, in.points, first, last);
+  for (std::size_t block = first; block < last; ++block) sample_block(in, near, block);
 }
 
 #endif

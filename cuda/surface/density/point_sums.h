@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 
 #include "cuda/surface/density/atom_cells.h"
 
@@ -82,62 +83,184 @@ struct BlockBox {
   Vec3f lower, upper;
 };
 
-ESPDIFF_INLINE float gap(float value, float low, float high) {
-  return value < low ? low - value : value > high ? value - high : 0.0F;
+/// Box around the points first .. last-1 of a list.
+ESPDIFF_INLINE BlockBox box_of_points(const PointList& in, std::size_t first, std::size_t last) {
+  BlockBox box{{1e30F, 1e30F, 1e30F}, {-1e30F, -1e30F, -1e30F}};
+  for (std::size_t i = first; i < last; ++i) {
+    const Vec3f p = in.points[in.list[i]].xyz();
+    box.lower = {smaller(p.x, box.lower.x), smaller(p.y, box.lower.y), smaller(p.z, box.lower.z)};
+    box.upper = {larger(p.x, box.upper.x), larger(p.y, box.upper.y), larger(p.z, box.upper.z)};
+  }
+  return box;
 }
 
-/// Calls visit(atom) for each atom that may reach the box, in the order of the cell list.
-template <typename Visit>
-ESPDIFF_INLINE void visit_atoms_near(const AtomCellsView& cells, const BlockBox& box, Visit visit) {
+/// Atoms that may reach a box, in the order of the cell list.
+struct NearAtoms {
+  static constexpr std::size_t kMost = 1024;  ///< 64 points of a surface have about 200
+  std::size_t n;
+  float x[kMost + kBlock], y[kMost + kBlock], z[kMost + kBlock];
+  float square[kMost + kBlock];  ///< of the reach, and a little more; negative in the lanes after the last atom
+  std::uint32_t atom[kMost + kBlock];
+};
+
+/// A walk through the cells near a box, which pauses when a list of atoms is full.
+struct CellWalk {
+  BlockBox box;
+  int x0, x1, y0, y1, z1;  ///< cells within reach
+  int y, z;                ///< the present row
+  std::uint32_t atom;      ///< of the present row, the next
+  bool is_done;
+};
+
+ESPDIFF_INLINE CellWalk walk_near(const AtomCellsView& cells, const BlockBox& box) {
   const float reach = cells.max_reach;
-  const int x0 = cells.clamped_cell(box.lower.x - reach, 0), x1 = cells.clamped_cell(box.upper.x + reach, 0);
-  const int y0 = cells.clamped_cell(box.lower.y - reach, 1), y1 = cells.clamped_cell(box.upper.y + reach, 1);
-  const int z0 = cells.clamped_cell(box.lower.z - reach, 2), z1 = cells.clamped_cell(box.upper.z + reach, 2);
-  for (int z = z0; z <= z1; ++z) {
-    for (int y = y0; y <= y1; ++y) {
-      const int row = cells.size[0] * (y + cells.size[1] * z);
-      for (std::uint32_t a = cells.first[row + x0]; a < cells.first[row + x1 + 1]; ++a) {
-        const float dx = gap(cells.x[a], box.lower.x, box.upper.x), dy = gap(cells.y[a], box.lower.y, box.upper.y),
-                    dz = gap(cells.z[a], box.lower.z, box.upper.z);
-        const float widest = 1.0001F * cells.reach[a];
-        if (dx * dx + dy * dy + dz * dz <= widest * widest) visit(a);
-      }
-    }
+  CellWalk walk{};
+  walk.box = box;
+  walk.x0 = cells.clamped_cell(box.lower.x - reach, 0);
+  walk.x1 = cells.clamped_cell(box.upper.x + reach, 0);
+  walk.y = walk.y0 = cells.clamped_cell(box.lower.y - reach, 1);
+  walk.y1 = cells.clamped_cell(box.upper.y + reach, 1);
+  walk.z = cells.clamped_cell(box.lower.z - reach, 2);
+  walk.z1 = cells.clamped_cell(box.upper.z + reach, 2);
+  return walk;
+}
+
+/// Distance from an interval to the cells `index` of an axis; a little less, because atoms were sorted by rounded
+/// coordinates.
+ESPDIFF_INLINE float gap_to_cells(const AtomCellsView& cells, int index, int axis, float low, float high) {
+  const float begin = cells.origin[axis] + cells.cell * (static_cast<float>(index) - 0.01F);
+  return larger(larger(begin - high, low - (begin + 1.02F * cells.cell)), 0.0F);
+}
+
+/// Lists atoms begin .. end-1 if they may reach the box.
+ESPDIFF_INLINE void list_atoms(const AtomCellsView& cells, const BlockBox& box, std::uint32_t begin, std::uint32_t end,
+                               NearAtoms& near) {
+  std::size_t n = near.n;
+  for (std::uint32_t a = begin; a < end; ++a) {
+    const float x = cells.x[a], y = cells.y[a], z = cells.z[a], widest = 1.0001F * cells.reach[a];
+    const float dx = larger(larger(box.lower.x - x, x - box.upper.x), 0.0F),
+                dy = larger(larger(box.lower.y - y, y - box.upper.y), 0.0F),
+                dz = larger(larger(box.lower.z - z, z - box.upper.z), 0.0F);
+    near.x[n] = x;
+    near.y[n] = y;
+    near.z[n] = z;
+    near.square[n] = widest * widest;
+    near.atom[n] = a;
+    // The sign instead of a branch, which could not be predicted.
+    const float excess = (dx * dx + dy * dy + dz * dz) - widest * widest;
+    std::uint32_t bits;
+    std::memcpy(&bits, &excess, sizeof bits);
+    n += bits >> 31U;
   }
+  near.n = n;
+}
+
+/// Lists the next atoms of the walk, as many as there is room for.
+ESPDIFF_INLINE void list_next_atoms(const AtomCellsView& cells, CellWalk& walk, NearAtoms& near) {
+  near.n = 0;
+  const float reach = 1.0001F * cells.max_reach;
+  walk.is_done = true;
+  for (; walk.z <= walk.z1 && walk.is_done; ++walk.z) {
+    const float dz = gap_to_cells(cells, walk.z, 2, walk.box.lower.z, walk.box.upper.z);
+    for (; walk.y <= walk.y1; ++walk.y, walk.atom = 0) {
+      const float dy = gap_to_cells(cells, walk.y, 1, walk.box.lower.y, walk.box.upper.y);
+      if (dy * dy + dz * dz > reach * reach) continue;
+      const int row = cells.size[0] * (walk.y + cells.size[1] * walk.z);
+      const std::uint32_t begin = std::max(walk.atom, cells.first[row + walk.x0]), end = cells.first[row + walk.x1 + 1];
+      const std::uint32_t room = static_cast<std::uint32_t>(NearAtoms::kMost - near.n);
+      if (begin < end) list_atoms(cells, walk.box, begin, std::min(end, begin + room), near);
+      walk.is_done = begin + room >= end;
+      walk.atom = begin + room;
+      if (!walk.is_done) break;
+    }
+    if (!walk.is_done) break;
+    walk.y = walk.y0;
+  }
+  for (std::size_t lane = 0; lane < kBlock; ++lane) {
+    near.x[near.n + lane] = near.y[near.n + lane] = near.z[near.n + lane] = 0.0F;
+    near.square[near.n + lane] = -1.0F;
+  }
+}
+
+/// Atoms near several blocks of a list of points. Blocks share them where they all fit into the list; otherwise each
+/// block walks by itself.
+struct SharedAtoms {
+  bool is_complete;
+  NearAtoms near;
+
+  ESPDIFF_INLINE void find(const AtomCellsView& cells, const PointList& in, std::size_t first_block,
+                           std::size_t last_block) {
+    CellWalk walk = walk_near(cells, box_of_points(in, first_block * kBlock, std::min(last_block * kBlock, in.n)));
+    list_next_atoms(cells, walk, near);
+    is_complete = walk.is_done;
+  }
+};
+
+ESPDIFF_INLINE void load_lanes(const float* values, Lanes& lanes) { std::memcpy(&lanes, values, sizeof lanes); }
+
+/// Bit k is set where the k-th of the atoms from `at` on may reach the box.
+ESPDIFF_INLINE std::uint32_t atoms_within(const NearAtoms& near, std::size_t at, const BlockBox& box) {
+  static_assert(kBlock == 8);
+  Lanes x, y, z, square;
+  load_lanes(near.x + at, x);
+  load_lanes(near.y + at, y);
+  load_lanes(near.z + at, z);
+  load_lanes(near.square + at, square);
+  const Lanes dx = larger_lanes(larger_lanes(box.lower.x - x, x - box.upper.x), Lanes{}),
+              dy = larger_lanes(larger_lanes(box.lower.y - y, y - box.upper.y), Lanes{}),
+              dz = larger_lanes(larger_lanes(box.lower.z - z, z - box.upper.z), Lanes{});
+  // The sign instead of a comparison.
+  const LaneMask is_near = (LaneMask)((dx * dx + dy * dy + dz * dz) - square) >> 31;
+  const std::uint64_t words = joined_words(is_near & LaneMask{1, 2, 4, 8, 16, 32, 64, 128});
+  return static_cast<std::uint32_t>(words | (words >> 32U));
 }
 
 /// Calls add(atom, exponent, dx, dy, dz, square, gaussian) with one lane per point of the block, for each atom that
 /// reaches any of them. The Gaussian is 0 in lanes that it does not reach.
 template <typename Add>
-ESPDIFF_INLINE void sum_at_block(const AtomCellsView& cells, const PointList& in, std::size_t block, Add add) {
+ESPDIFF_INLINE void sum_at_block(const AtomCellsView& cells, const SharedAtoms& shared, const PointList& in,
+                                 std::size_t block, Add add) {
   const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, in.n);
   Lanes px, py, pz;
-  BlockBox box{{1e30F, 1e30F, 1e30F}, {-1e30F, -1e30F, -1e30F}};
   for (std::size_t lane = 0; lane < kBlock; ++lane) {
     const Vec3f p = in.points[in.list[std::min(begin + lane, end - 1)]].xyz();
     px[lane] = p.x;
     py[lane] = p.y;
     pz[lane] = p.z;
-    box.lower = {std::min(box.lower.x, p.x), std::min(box.lower.y, p.y), std::min(box.lower.z, p.z)};
-    box.upper = {std::max(box.upper.x, p.x), std::max(box.upper.y, p.y), std::max(box.upper.z, p.z)};
   }
-  visit_atoms_near(cells, box, [&](std::uint32_t a) ESPDIFF_INLINE_LAMBDA {
-    const float k = cells.exponent[a];
-    const Lanes dx = px - cells.x[a], dy = py - cells.y[a], dz = pz - cells.z[a];
-    const Lanes square = dx * dx + dy * dy + dz * dz;
-    const Lanes argument = k * square;
-    const LaneMask counts = argument > kCutoffExponent;
-    Lanes exponential;
-    exp_of_negative_lanes((Lanes)((LaneMask)argument & counts), exponential);
-    add(a, k, dx, dy, dz, square, (Lanes)((LaneMask)exponential & counts));
-  });
+  const BlockBox box = box_of_points(in, begin, end);
+  CellWalk walk = walk_near(cells, box);
+  NearAtoms own;
+  if (!shared.is_complete) list_next_atoms(cells, walk, own);
+  const NearAtoms& near = shared.is_complete ? shared.near : own;
+  walk.is_done = walk.is_done || shared.is_complete;
+  for (std::size_t at = 0;;) {
+    if (at >= near.n) {
+      if (walk.is_done) break;
+      list_next_atoms(cells, walk, own);
+      at = 0;
+      continue;
+    }
+    for (std::uint32_t within = atoms_within(near, at, box); within != 0; within &= within - 1) {
+      const std::uint32_t a = near.atom[at + static_cast<std::size_t>(__builtin_ctz(within))];
+      const float k = cells.exponent[a];
+      const Lanes dx = px - cells.x[a], dy = py - cells.y[a], dz = pz - cells.z[a];
+      const Lanes square = dx * dx + dy * dy + dz * dz;
+      const Lanes argument = k * square;
+      const LaneMask counts = argument > kCutoffExponent;
+      Lanes exponential;
+      exp_of_negative_lanes((Lanes)((LaneMask)argument & counts), exponential);
+      add(a, k, dx, dy, dz, square, (Lanes)((LaneMask)exponential & counts));
+    }
+    at += kBlock;
+  }
 }
 
 /// Calls blocks(first, last) in parallel for ranges of blocks that together hold n points. `blocks` is compiled for
 /// several instruction sets; each call takes several blocks, so the dispatch is cheap.
 template <typename Blocks>
 void for_all_blocks(std::size_t n, Blocks blocks) {
-  constexpr std::size_t kBlocksPerCall = 4;
+  constexpr std::size_t kBlocksPerCall = 8;
   const std::size_t n_blocks = (n + kBlock - 1) / kBlock;
   for_each_index((n_blocks + kBlocksPerCall - 1) / kBlocksPerCall, [=](std::size_t call) {
     blocks(call * kBlocksPerCall, std::min((call + 1) * kBlocksPerCall, n_blocks));

@@ -107,10 +107,10 @@ struct BlockTally {
   }
 };
 
-ESPDIFF_INLINE void label_block(const Labelling& in, std::size_t block) {
+ESPDIFF_INLINE void label_block(const Labelling& in, const SharedAtoms& near, std::size_t block) {
   BlockTally tally;
   tally.clear();
-  sum_at_block(in.cells, in.points, block,
+  sum_at_block(in.cells, near, in.points, block,
                [&](std::uint32_t a, float, const Lanes&, const Lanes&, const Lanes&, const Lanes&,
                    const Lanes& gaussian) ESPDIFF_INLINE_LAMBDA { tally.add(in.cells.residue[a], gaussian); });
   LaneMask strongest;
@@ -123,7 +123,9 @@ ESPDIFF_INLINE void label_block(const Labelling& in, std::size_t block) {
 }
 
 ESPDIFF_MULTIVERSION void label_blocks(const Labelling& in, std::size_t first, std::size_t last) {
-  for (std::size_t block = first; block < last; ++block) label_block(in, block);
+  SharedAtoms near;
+  near.find(in.cells, in.points, first, last);
+  for (std::size_t block = first; block < last; ++block) label_block(in, near, block);
 }
 
 #endif

@@ -2,6 +2,7 @@
 // Laplacians.
 #pragma once
 
+#include "cuda/device/quad.h"
 #include "cuda/surface/mesh/mesh.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -18,10 +19,10 @@ Buffer<float> vertex_areas(const SurfaceMesh& mesh, const Buffer<float>& areas, 
 /// Uniform umbrella Laplacian at v: mean of the one-ring minus v; zero for a vertex in no triangle.
 ESPDIFF_INLINE Vec4f umbrella(const TopologyView& topology, const Vec4f* x, std::size_t v) {
   const std::uint32_t begin = topology.first[v], end = topology.first[v + 1];
-  Vec4f sum{};
-  for (std::uint32_t n = begin; n < end; ++n) sum = sum + x[topology.neighbour[n]];
+  Quad sum{};
+  for (std::uint32_t n = begin; n < end; ++n) sum = sum + quad_of(x[topology.neighbour[n]]);
   if (begin == end) return {};  // an isolated vertex stays in place
-  return (1.0F / static_cast<float>(end - begin)) * sum - x[v];
+  return vec4_of((1.0F / static_cast<float>(end - begin)) * sum - quad_of(x[v]));
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -27,13 +27,16 @@ struct Division {
   TopologyView topology;
   const std::uint32_t* marked;
   const std::uint32_t* number;  // [place] index among the new vertices, where marked
+  const std::uint8_t* splits;   // [vertex] whether any edge of its row is marked
   std::uint32_t n_old;
 };
 
 ESPDIFF_INLINE Halves halves_of(const Division& in, const Corners& corners) {
   Halves halves{{kNone, kNone, kNone}, 0};
   for (int c = 0; c < 3; ++c) {
-    const std::uint32_t place = edge_place(in.topology, corners.v[c], corners.v[(c + 1) % 3]);
+    const std::uint32_t a = corners.v[c], b = corners.v[(c + 1) % 3];
+    if (in.splits[a < b ? a : b] == 0) continue;
+    const std::uint32_t place = edge_place(in.topology, a, b);
     if (place == kNone || in.marked[place] == 0) continue;
     halves.middle[c] = in.n_old + in.number[place];
     ++halves.n;
@@ -94,12 +97,18 @@ EdgeSplit split_edges(const Topology& topology, const Buffer<std::uint32_t>& mar
                           raw(topology.incident)};
   Buffer<std::uint32_t> numbers(3 * n_triangles);
   std::uint32_t* const number = raw(numbers);
+  Buffer<std::uint8_t> splitting(n_vertices);
+  std::uint8_t* const splits = raw(splitting);
   const std::uint32_t* const mark = raw(marked);
   for_each_index(n_vertices, [=] ESPDIFF_HD(std::size_t v) {
-    for (std::uint32_t p = view.first[v]; p < view.first[v + 1]; ++p)
+    std::uint32_t any = 0;
+    for (std::uint32_t p = view.first[v]; p < view.first[v + 1]; ++p) {
       number[p] = mark[p] != 0 && v < view.neighbour[p] ? 1U : 0U;
+      any |= number[p];
+    }
+    splits[v] = static_cast<std::uint8_t>(any);
   });
-  const Division division{view, mark, number, static_cast<std::uint32_t>(n_vertices)};
+  const Division division{view, mark, number, splits, static_cast<std::uint32_t>(n_vertices)};
   Buffer<std::uint32_t> begins(n_triangles);
   std::uint32_t* const begin = raw(begins);
   for_each_index(n_triangles, [=] ESPDIFF_HD(std::size_t t) {
@@ -114,6 +123,7 @@ EdgeSplit split_edges(const Topology& topology, const Buffer<std::uint32_t>& mar
   split.ends.resize(n_new);
   EdgeSplit::Ends* const ends = raw(split.ends);
   for_each_index(n_vertices, [=] ESPDIFF_HD(std::size_t v) {
+    if (splits[v] == 0) return;
     for (std::uint32_t p = view.first[v]; p < view.first[v + 1]; ++p) {
       if (mark[p] != 0 && v < view.neighbour[p]) ends[number[p]] = {static_cast<std::uint32_t>(v), view.neighbour[p]};
     }

@@ -9,7 +9,6 @@
 #include <nanobind/stl/vector.h>
 
 #include "engine/engine.h"
-#include "ensemble/ensemble_settings.h"
 #include "ensemble/ensemble_study.h"
 #include "ensemble/file/ensemble_file.h"
 #include "ensemble_result.h"

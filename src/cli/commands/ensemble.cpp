@@ -10,7 +10,6 @@
 #include "cli/verbs.h"
 #include "cli/words/help.h"
 #include "engine/engine.h"
-#include "ensemble/ensemble_settings.h"
 #include "ensemble/ensemble_study.h"
 #include "ensemble/file/ensemble_file.h"
 #include "ensemble/result/write_ensemble.h"

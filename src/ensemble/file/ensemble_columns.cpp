@@ -35,6 +35,12 @@ std::size_t detected_start(const EnsembleFile& file, std::size_t replicate) {
 
 }  // namespace
 
+std::string to_string(const Equilibration& how) {
+  return how.kind == Equilibration::Kind::kNone        ? "none"
+         : how.kind == Equilibration::Kind::kAutomatic ? "auto"
+                                                       : std::to_string(how.n_frames);
+}
+
 Equilibration parse_equilibration(const std::string& text) {
   if (text == "none") return {};
   if (text == "auto") return {Equilibration::Kind::kAutomatic, 0};

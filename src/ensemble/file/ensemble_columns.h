@@ -18,6 +18,8 @@ struct Equilibration {
 };
 /// "none", "auto", or a number of frames. @throws InputError
 Equilibration parse_equilibration(const std::string& text);
+/// The text that parse_equilibration() reads.
+std::string to_string(const Equilibration& how);
 
 /// [replicate] frames to cut off. Automatic: the later of those that leave most effective samples of the RMSD to the
 /// template and of the mean potential; see detect_equilibration().

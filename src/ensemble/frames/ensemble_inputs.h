@@ -13,6 +13,7 @@
 #include "ensemble/frames/replicate_request.h"
 #include "frames/frame_files.h"
 #include "mapping/input.h"
+#include "options/option_row.h"
 #include "options/options.h"
 #include "potential/potential_plan.h"
 
@@ -29,6 +30,33 @@ struct EnsembleRequest {
   PotentialRequest potential;
   StructureOptions structure;
 };
+
+/// The options of these, where `at` finds them in what is asked for; in the order of the manuals.
+template <typename Study, typename At>
+std::vector<OptionRow<Study>> input_rows(At at) {
+  using Rows = RowsOf<Study>;
+  const std::string group = "Groups";
+  return {
+      Rows::text(
+          "map-unit", group, [at](auto& o) -> auto& { return at(o).maps.unit; },
+          "Unit of given maps if the files do not give it: kT/e, mV, V, kcal/mol/e, hartree/e"),
+      Rows::text(
+          "map-array", group, [at](auto& o) -> auto& { return at(o).maps.array; },
+          "Array of given VTI maps with several"),
+      Rows::text(
+          "frames", group, [at](auto& o) -> auto& { return at(o).frames; },
+          "Frames of each replicate that names none, from 0: all, begin:end or begin:step:end, as of a trajectory"),
+      Rows::text(
+          "template", group, [at](auto& o) -> auto& { return at(o).template_text; },
+          "The structure whose surface is mapped onto every frame. medoid: the frame nearest to all others (of at most "
+          "200, evenly spread); medoid:GROUP: among the group's frames; a number: that frame, counted from 0 through "
+          "all groups; a structure file"),
+      Rows::text(
+          "plugins", group, [at](auto& o) -> auto& { return at(o).plugins; },
+          "Folder of VMD's molfile plugins, which read trajectories and topologies (that of $VMDDIR, or of the `vmd` "
+          "on "
+          "PATH)")};
+}
 
 /// The frames of an ensemble. One file is in memory at a time, whatever the number of replicates.
 class EnsembleInputs {

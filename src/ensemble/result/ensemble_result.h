@@ -11,6 +11,7 @@
 
 #include "ensemble/file/ensemble_columns.h"
 #include "ensemble/result/ensemble_causes.h"
+#include "ensemble/result/ensemble_options.h"
 #include "ensemble/result/regression_column.h"
 #include "ensemble/result/states.h"
 #include "ensemble/result/template_check.h"
@@ -22,31 +23,6 @@
 namespace espdiff {
 
 class EnsembleFile;
-struct EarlierPatch;
-struct PatchPlacement;
-
-enum class ErrorControl { kTfce, kMaxT };
-
-/// A part of the surface that the user chose before seeing the result.
-struct FixedPatch {
-  std::string name;
-  std::vector<std::uint8_t> residues;  ///< [residue of the template] nonzero in the patch; empty for an earlier one
-  std::shared_ptr<const EarlierPatch> earlier{};      ///< a patch of another template, whose place has to be found
-  std::shared_ptr<const PatchPlacement> placement{};  ///< how it was found
-  double area_A2 = 0;                                 ///< tested
-  std::vector<double> means{};                        ///< [group]
-};
-
-/// Options of the statistics; they do not change the file's values.
-struct EnsembleOptions {
-  double alpha = 0.05;        ///< of patches, and 1 - confidence of intervals
-  double most_missing = 0.1;  ///< a vertex that a larger share of a group's frames does not trust is left out
-  ErrorControl control = ErrorControl::kTfce;  ///< the family-wise p of patches
-  Equilibration equilibration;
-  SurfaceTestOptions test;
-  std::vector<FixedPatch> fixed_patches;  ///< names and residues
-  std::optional<RegressionColumn> regression;
-};
 
 /// A replicate in numbers.
 struct ReplicateSummary {

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "io/grids/grid_checks.h"
+#include "io/grids/grid_format.h"
 
 namespace espdiff {
 namespace {
@@ -131,6 +132,11 @@ Grid read_ccp4(const std::string& path, std::string_view bytes) {
                 static_cast<std::size_t>(size[0]) * (index[1] + static_cast<std::size_t>(size[1]) * index[2])] = value;
   }
   return grid;
+}
+
+GridFormat ccp4_format() {
+  return {"CCP4", [](std::string_view, FileKind kind) { return kind == FileKind::kCcp4; },
+          [](FileContent file, const GridOptions& /*options*/) { return read_ccp4(file.path, file.content); }};
 }
 
 }  // namespace espdiff

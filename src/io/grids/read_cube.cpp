@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "io/grids/grid_checks.h"
+#include "io/grids/grid_format.h"
 #include "io/grids/read_dx.h"
 #include "io/text/text_cursor.h"
 
@@ -149,6 +150,14 @@ Grid read_cube(const std::string& path, std::string_view text) {
                 in_quotes(word));
   }
   return grid;
+}
+
+GridFormat cube_format() {
+  return {"cube", [](std::string_view, FileKind kind) { return kind == FileKind::kCube; },
+          [](FileContent file, const GridOptions& /*options*/) {
+            unify_line_ends(file.content);
+            return read_cube(file.path, file.content);
+          }};
 }
 
 }  // namespace espdiff

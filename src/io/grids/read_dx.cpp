@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/text/printable.h"
 #include "io/grids/grid_checks.h"
+#include "io/grids/grid_format.h"
 #include "io/text/text_cursor.h"
 
 namespace espdiff {
@@ -272,5 +273,13 @@ PotentialUnit potential_unit_of_file(const std::string& path) {
 }
 
 Grid read_dx(const std::string& path, std::string_view text) { return DxReader(path, text).read(); }
+
+GridFormat dx_format() {
+  return {"OpenDX", [](std::string_view, FileKind kind) { return kind == FileKind::kDx; },
+          [](FileContent file, const GridOptions& /*options*/) {
+            unify_line_ends(file.content);
+            return read_dx(file.path, file.content);
+          }};
+}
 
 }  // namespace espdiff

@@ -6,45 +6,46 @@
 #include "base/error.h"
 #include "io/files/file_kind.h"
 #include "io/files/read_input.h"
-#include "io/grids/read_ccp4.h"
-#include "io/grids/read_cube.h"
-#include "io/grids/read_dx.h"
-#include "io/grids/read_vti.h"
+#include "io/grids/grid_format.h"
 
 namespace espdiff {
 namespace {
 
-[[noreturn]] void refuse_as_grid(const std::string& path, FileKind kind) {
+/// "OpenDX, cube, CCP4 or VTI"
+std::string names_of_formats(bool with_arrays_only) {
+  std::vector<std::string> names;
+  for (const GridFormat& format : grid_formats()) {
+    if (!with_arrays_only || format.has_arrays) names.push_back(format.name);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+  return text;
+}
+
+/// The format of a map. @throws InputError for a file that is none
+const GridFormat& format_of(const std::string& path, std::string_view head) {
+  const FileKind kind = recognise(head);
+  for (const GridFormat& format : grid_formats()) {
+    if (format.is(head, kind)) return format;
+  }
   const bool is_vtk = kind == FileKind::kVtkXml || kind == FileKind::kVtkLegacy;
   throw InputError(path + ": this looks like " + describe(kind) + ", which is not read as a map; " +
-                   (is_vtk ? "save it as image data (.vti)" : "give an OpenDX, cube, CCP4 or VTI file"));
-}
-
-/// Only VTI files have named arrays.
-void refuse_array(const std::string& path, const GridOptions& options) {
-  if (options.array.empty()) return;
-  throw InputError(path + ": array '" + options.array + "' was asked for, but only VTI files have named arrays");
-}
-
-Grid parse_grid(FileContent file, FileKind kind, const GridOptions& options) {
-  if (kind == FileKind::kVti) return read_vti(VtkXmlFile(std::move(file), kImageData), options);
-  if (kind == FileKind::kCcp4) return read_ccp4(file.path, file.content);
-  unify_line_ends(file.content);
-  return kind == FileKind::kDx ? read_dx(file.path, file.content) : read_cube(file.path, file.content);
+                   (is_vtk ? "save it as image data (.vti)" : "give an " + names_of_formats(false) + " file"));
 }
 
 }  // namespace
 
 GridFile read_grid_file(const std::string& path, const GridOptions& options) {
-  FileKind kind{};
+  const GridFormat* format = nullptr;
   FileContent file = read_input(path, [&](std::string_view head) {
-    kind = recognise(head);
-    if (kind == FileKind::kVti) return;
-    if (kind != FileKind::kDx && kind != FileKind::kCube && kind != FileKind::kCcp4) refuse_as_grid(path, kind);
-    refuse_array(path, options);
+    format = &format_of(path, head);
+    if (options.array.empty() || format->has_arrays) return;
+    throw InputError(path + ": array '" + options.array + "' was asked for, but only " + names_of_formats(true) +
+                     " files have named arrays");
   });
   GridFile read{{}, file.sha256};
-  read.grid = parse_grid(std::move(file), kind, options);
+  read.grid = format->read(std::move(file), options);
   if (!options.unit.empty()) take_unit(options.unit, read.grid);
   return read;
 }

@@ -11,6 +11,7 @@
 #include "base/formatted.h"
 #include "base/memory.h"
 #include "io/grids/grid_checks.h"
+#include "io/grids/grid_format.h"
 #include "io/grids/read_dx.h"
 #include "io/text/text_cursor.h"
 #include "io/vtk/vtk_xml.h"
@@ -222,6 +223,14 @@ std::vector<std::string> list_vti_scalars(const VtkXmlFile& file) {
     if (file.n_components(*array) == 1) names.push_back(name_of(*array));
   }
   return names;
+}
+
+GridFormat vti_format() {
+  return {"VTI", [](std::string_view, FileKind kind) { return kind == FileKind::kVti; },
+          [](FileContent file, const GridOptions& options) {
+            return read_vti(VtkXmlFile(std::move(file), kImageData), options);
+          },
+          true};
 }
 
 }  // namespace espdiff
