@@ -134,6 +134,7 @@ class BackEndEngine : public Engine {
   std::string back_end() const override { return "cuda"; }
   std::string description() const override { return describe_device(context_->device()); }
   int n_threads() const override { return 0; }
+  std::unique_ptr<Engine> beside(int) const override { return std::make_unique<BackEndEngine>(context_->device()); }
 #else
   explicit BackEndEngine(int n_threads) : n_threads_(n_threads) {}
 
@@ -142,6 +143,7 @@ class BackEndEngine : public Engine {
     return std::to_string(n_threads_) + (n_threads_ == 1 ? " thread" : " OpenMP threads");
   }
   int n_threads() const override { return n_threads_; }
+  std::unique_ptr<Engine> beside(int n_threads) const override { return std::make_unique<BackEndEngine>(n_threads); }
 #endif
 
   double elapsed_ms(const std::function<void()>& calls) override {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <string>
 
 #include "base/error.h"
@@ -87,40 +88,54 @@ std::array<Vec3d, 3> reciprocal_edges(const PmeCell& cell) {
   return {inverse * cross(e[1], e[2]), inverse * cross(e[2], e[0]), inverse * cross(e[0], e[1])};
 }
 
-/// [atom] grid coordinates, wrapped into the cell.
-std::vector<Vec3d> grid_coordinates(const std::vector<Vec3d>& positions, const PmeCell& cell,
-                                    const PmeOptions& options) {
-  const std::array<int, 3>& size = options.size;
-  const std::array<Vec3d, 3> reciprocal = reciprocal_edges(cell);
-  const Vec3d origin = lattice_over(cell, size).origin;
-  const PmepotPlaces pmepot_places(cell, size);
-  std::vector<Vec3d> places;
-  places.reserve(positions.size());
-  for (const Vec3d& p : positions) {
-    const std::array<double, 3> u = options.compatible ? pmepot_places.coordinates(p) : std::array<double, 3>{};
-    Vec3d place;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::size_t a = static_cast<std::size_t>(axis);
-      const double part = dot(p - origin, reciprocal[a]);
-      place[axis] = options.compatible ? u[a] : wrapped(static_cast<double>(size[a]) * part, size[a]);
-    }
-    places.push_back(place);
+/// From positions to grid coordinates, wrapped into the cell.
+class GridPlaces {
+ public:
+  GridPlaces(const PmeCell& cell, const PmeOptions& options)
+      : compatible_(options.compatible),
+        pmepot_(cell, options.size),
+        origin_(lattice_over(cell, options.size).origin),
+        size_{options.size[0], options.size[1], options.size[2]} {
+    const std::array<Vec3d, 3> reciprocal = reciprocal_edges(cell);
+    std::copy(reciprocal.begin(), reciprocal.end(), reciprocal_);
   }
-  return places;
-}
 
-/// Without those of charge 0. @param places in grid coordinates
-template <typename T>
-std::vector<GridCharge> place_charges(const std::vector<Vec3d>& places, const std::vector<T>& charges) {
-  std::vector<GridCharge> placed;
-  placed.reserve(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (charges[i] == 0) continue;
-    GridCharge c{};
-    c.charge = static_cast<double>(charges[i]);
-    for (int axis = 0; axis < 3; ++axis) c.u[axis] = places[i][axis];
-    placed.push_back(c);
+  ESPDIFF_HD Vec3d operator()(const Vec3d& p) const {
+    if (compatible_) return pmepot_.coordinates(p);
+    Vec3d place;
+    for (int axis = 0; axis < 3; ++axis)
+      place[axis] = wrapped(static_cast<double>(size_[axis]) * dot(p - origin_, reciprocal_[axis]), size_[axis]);
+    return place;
   }
+
+ private:
+  bool compatible_;
+  PmepotPlaces pmepot_;
+  Vec3d origin_, reciprocal_[3];
+  int size_[3];
+};
+
+/// Wraps grid coordinates into the cell.
+struct WrapPlaces {
+  int size[3];
+  ESPDIFF_HD Vec3d operator()(const Vec3d& p) const {
+    return {wrapped(p.x, size[0]), wrapped(p.y, size[1]), wrapped(p.z, size[2])};
+  }
+};
+
+/// [point] its charge at grid coordinates. @param places from points to grid coordinates
+template <typename T, typename Places>
+Buffer<GridCharge> place_charges(const std::vector<Vec3d>& points, const std::vector<T>& charges, Places places) {
+  const Buffer<Vec3d> points_there = to_device(points);
+  const Buffer<T> charges_there = to_device(charges);
+  Buffer<GridCharge> placed(points.size());
+  const Vec3d* const point = raw(points_there);
+  const T* const charge = raw(charges_there);
+  GridCharge* const to = raw(placed);
+  for_each_index(placed.size(), [=] ESPDIFF_HD(std::size_t i) {
+    const Vec3d u = places(point[i]);
+    to[i] = {{u.x, u.y, u.z}, static_cast<double>(charge[i]), 0, 0};
+  });
   return placed;
 }
 
@@ -220,7 +235,7 @@ void copy_values(FourierGrid<T>& grid, const std::array<int, 3>& size, Buffer<fl
 
 /// Spreads charges over the grid.
 template <typename T>
-void spread_on(FourierGrid<T>& grid, std::vector<GridCharge> placed, const PmeOptions& options) {
+void spread_on(FourierGrid<T>& grid, Buffer<GridCharge> placed, const PmeOptions& options) {
   const SortedCharges<T> sorted = sort_charges<T>(std::move(placed), options.size, options.order);
 #if defined(ESPDIFF_BACKEND_CUDA)
   spread_by_points(sorted, grid.values(), grid.slab_stride());
@@ -234,11 +249,8 @@ template <typename T>
 void spread_reading(FourierGrid<T>& grid, const MapGrid& map, const WeightedPlaces& reading,
                     const PmeOptions& options) {
   if (map.spline_order != 0) {
-    std::vector<Vec3d> places = reading.place;
-    for (Vec3d& p : places) {
-      for (int axis = 0; axis < 3; ++axis) p[axis] = wrapped(p[axis], options.size[static_cast<std::size_t>(axis)]);
-    }
-    spread_on(grid, place_charges(places, reading.weight), options);
+    const WrapPlaces into_cell{{options.size[0], options.size[1], options.size[2]}};
+    spread_on(grid, place_charges(reading.place, reading.weight, into_cell), options);
     return;
   }
   const SparseValues sparse = spread_linearly(map, reading);
@@ -277,6 +289,19 @@ void subtract_bulk(FourierGrid<T>& grid, const MapGrid& map, double all) {
   });
 }
 
+std::shared_ptr<const MapOrigin> origin_of(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                                           const PmeCell& cell, const PmeOptions& options,
+                                           const RigidTransform& to_map) {
+  auto origin = std::make_shared<MapOrigin>();
+  origin->method = PotentialMethod::kPme;
+  origin->positions = positions;
+  origin->to_map = to_map;
+  origin->charges = charges;
+  origin->cell = cell;
+  origin->pme = options;
+  return origin;
+}
+
 double sum_of(const std::vector<double>& weights) {
   double sum = 0;
   for (const double w : weights) sum += w;
@@ -313,7 +338,7 @@ void PmeSolver::convolve(FourierGrid<T>& grid, const PmeCell& cell, const PmeOpt
 }
 
 template <typename T>
-void PmeSolver::solve(Kept<T>& kept, std::vector<GridCharge> placed, const PmeCell& cell, const PmeOptions& options,
+void PmeSolver::solve(Kept<T>& kept, Buffer<GridCharge> placed, const PmeCell& cell, const PmeOptions& options,
                       MapGrid& map, const Progress& progress) {
   FourierGrid<T>& grid = kept.of_size(options.size);
   progress.report("potential", 0.1);
@@ -331,20 +356,18 @@ std::shared_ptr<MapGrid> PmeSolver::potential(const std::vector<Vec3d>& position
   check_memory(options);
   scale_of(checked_volume(cell), options);  // before any work
   auto map = std::make_shared<MapGrid>();
-  std::vector<GridCharge> placed = place_charges(grid_coordinates(positions, cell, options), charges);
+  // A million atoms are copied while others are sent to the device.
+  constexpr std::size_t kManyAtoms = 200000;
+  std::future<std::shared_ptr<const MapOrigin>> origin =
+      std::async(positions.size() < kManyAtoms ? std::launch::deferred : std::launch::async,
+                 [&] { return origin_of(positions, charges, cell, options, to_map); });
+  Buffer<GridCharge> placed = place_charges(positions, charges, GridPlaces(cell, options));
   if (options.precision == Precision::kDouble) {
     solve(double_, std::move(placed), cell, options, *map, progress);
   } else {
     solve(single_, std::move(placed), cell, options, *map, progress);
   }
-  auto origin = std::make_shared<MapOrigin>();
-  origin->method = PotentialMethod::kPme;
-  origin->positions = positions;
-  origin->to_map = to_map;
-  origin->charges = charges;
-  origin->cell = cell;
-  origin->pme = options;
-  map->origin = std::move(origin);
+  map->origin = origin.get();
   map->lattice = lattice_over(cell, options.size);
   map->unit = PotentialUnit::kKtPerE;
   map->periodic = true;
@@ -377,7 +400,9 @@ std::vector<double> PmeSolver::contributions(const MapGrid& map, const WeightedP
     solve_transposed(single_, map, reading, solution);
   }
   const std::vector<Vec3d> places = charge_places(origin, probes);
-  const std::vector<float> smooth = values_at(solution, grid_coordinates(places, origin.cell, options));
+  std::vector<Vec3d> on_grid(places.size());
+  std::transform(places.begin(), places.end(), on_grid.begin(), GridPlaces(origin.cell, options));
+  const std::vector<float> smooth = values_at(solution, on_grid);
   std::vector<double> result(smooth.begin(), smooth.end());
   if (options.part == PmePart::kFull) {
     std::vector<Vec3d> parts = reading.place;

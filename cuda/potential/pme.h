@@ -32,8 +32,8 @@ class PmeSolver {
     FourierGrid<T>& of_size(std::array<int, 3> wanted);
   };
   template <typename T>
-  void solve(Kept<T>& kept, std::vector<GridCharge> placed, const PmeCell& cell, const PmeOptions& options,
-             MapGrid& map, const Progress& progress);
+  void solve(Kept<T>& kept, Buffer<GridCharge> placed, const PmeCell& cell, const PmeOptions& options, MapGrid& map,
+             const Progress& progress);
   template <typename T>
   void convolve(FourierGrid<T>& grid, const PmeCell& cell, const PmeOptions& options, MapGrid& map);
   template <typename T>

@@ -14,8 +14,8 @@ namespace espdiff::ESPDIFF_BACKEND {
 /// Grid coordinates in a cell, each step rounded to float where PMEPot's is.
 class PmepotPlaces {
  public:
-  PmepotPlaces(const PmeCell& cell, const std::array<int, 3>& size) : size_(size) {
-    std::array<Vec3f, 3> edges;
+  PmepotPlaces(const PmeCell& cell, const std::array<int, 3>& size) : size_{size[0], size[1], size[2]} {
+    Vec3f edges[3];
     for (std::size_t i = 0; i < 3; ++i) edges[i] = static_cast<Vec3f>(cell.edges[i]);
     origin_ = static_cast<Vec3f>(cell.centre);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -29,12 +29,12 @@ class PmepotPlaces {
   }
 
   /// 0 to size along each axis.
-  std::array<double, 3> coordinates(Vec3d position) const {
+  ESPDIFF_HD Vec3d coordinates(const Vec3d& position) const {
     const Vec3f p = static_cast<Vec3f>(position) - origin_;
-    std::array<double, 3> u{};
-    for (std::size_t i = 0; i < 3; ++i) {
+    Vec3d u;
+    for (int i = 0; i < 3; ++i) {
       const double n = size_[i], part = static_cast<double>(dot(p, reciprocal_[i]) + shift_[i]);
-      const float wrapped_float = static_cast<float>(n * (part - std::floor(part)));
+      const float wrapped_float = static_cast<float>(n * (part - floor(part)));
       const double shifted = static_cast<double>(wrapped_float) >= n ? 0.0 : static_cast<double>(wrapped_float);
       u[i] = shifted >= kSteps ? shifted - kSteps : shifted - kSteps + n;
     }
@@ -43,10 +43,10 @@ class PmepotPlaces {
 
  private:
   static constexpr double kSteps = 2;
-  std::array<int, 3> size_;
+  int size_[3];
   Vec3f origin_;
-  std::array<Vec3f, 3> reciprocal_{};
-  std::array<float, 3> shift_{};
+  Vec3f reciprocal_[3];
+  float shift_[3];
 };
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,10 +1,10 @@
 // spread.cu: sorts charges into rows of the grid and spreads them, by slabs (CPU) or by points (device).
 #include "cuda/potential/spread.h"
 
-#include <thrust/sort.h>
-
 #include <algorithm>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 #include "cuda/device/sort.h"
 
@@ -25,44 +25,116 @@ struct InOrder {
 
 ESPDIFF_INLINE void set_base(GridCharge& c, int order, int nx, int ny, int nz) {
   const int y = spline_place(c.u[1], order, ny).base, z = spline_place(c.u[2], order, nz).base;
-  c.row = static_cast<std::uint32_t>(y + ny * z);
+  c.row = c.charge == 0 ? static_cast<std::uint32_t>(ny) * static_cast<std::uint32_t>(nz)  // of no row
+                        : static_cast<std::uint32_t>(y + ny * z);
   c.base_x = spline_place(c.u[0], order, nx).base;
 }
 
-/// Sets the charges' bases and row_first; returns the charges in order.
+/// Sets the charges' bases and row_first; returns the charges in order, those of no row last or left out.
 #if defined(ESPDIFF_BACKEND_CUDA)
 
-Buffer<GridCharge> sort_by_rows(const std::vector<GridCharge>& charges, const std::array<int, 3>& size, int order,
+/// Within a row: ascending as InOrder is, though not always where that is.
+ESPDIFF_INLINE std::uint32_t key_in_row(const GridCharge& c, int nx) {
+  constexpr int kPlaceBits = 20;  // the others hold base_x, below 4096
+  constexpr double kPlaces = 1 << kPlaceBits;
+  return static_cast<std::uint32_t>(c.base_x) << kPlaceBits |
+         static_cast<std::uint32_t>(c.u[0] / static_cast<double>(nx) * kPlaces);
+}
+
+/// Restores a heap of items, by the charges that they name, whose item `from` may be less than those below it.
+ESPDIFF_INLINE void sink(std::uint32_t* item, std::size_t from, std::size_t end, const GridCharge* charge) {
+  const InOrder before;
+  for (std::size_t child = 2 * from + 1; child < end; child = 2 * from + 1) {
+    if (child + 1 < end && before(charge[item[child]], charge[item[child + 1]])) ++child;
+    if (!before(charge[item[from]], charge[item[child]])) return;
+    const std::uint32_t larger = item[child];
+    item[child] = item[from];
+    item[from] = larger;
+    from = child;
+  }
+}
+
+/// Sorts n items by the charges that they name; all of them may lie at one place.
+ESPDIFF_INLINE void heap_sort(std::uint32_t* item, std::size_t n, const GridCharge* charge) {
+  for (std::size_t i = n / 2; i-- > 0;) sink(item, i, n, charge);
+  for (std::size_t end = n; end-- > 1;) {
+    const std::uint32_t largest = item[0];
+    item[0] = item[end];
+    item[end] = largest;
+    sink(item, 0, end, charge);
+  }
+}
+
+/// Puts charges of equal keys, which follow each other, into their order.
+void sort_equal_keys(const Buffer<GridCharge>& charges, int nx, std::size_t n_rows, Buffer<std::uint32_t>& items) {
+  const std::size_t n = items.size();
+  Buffer<std::uint8_t> begins(n);
+  std::uint8_t* const begin = raw(begins);
+  std::uint32_t* const item = raw(items);
+  const GridCharge* const charge = raw(charges);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t i) {
+    const GridCharge& c = charge[item[i]];
+    const GridCharge& last = charge[item[i == 0 ? 0 : i - 1]];
+    begin[i] = i == 0 || c.row >= n_rows || c.row != last.row || key_in_row(c, nx) != key_in_row(last, nx) ? 1 : 0;
+  });
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t i) {
+    if (begin[i] == 0) return;
+    std::size_t end = i + 1;
+    while (end < n && begin[end] == 0) ++end;
+    if (end > i + 1) heap_sort(item + i, end - i, charge);
+  });
+}
+
+Buffer<GridCharge> sort_by_rows(Buffer<GridCharge> charges, const std::array<int, 3>& size, int order,
                                 Buffer<std::uint32_t>& row_first) {
-  Buffer<GridCharge> sorted = to_device(charges);
-  GridCharge* const charge = raw(sorted);
+  const std::size_t n = charges.size(), n_rows = static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]);
+  Buffer<std::uint32_t> keys(n), items(n);
+  std::uint32_t* const key = raw(keys);
+  std::uint32_t* const item = raw(items);
+  GridCharge* const charge = raw(charges);
   const int nx = size[0], ny = size[1], nz = size[2];
-  for_each_index(sorted.size(), [=] ESPDIFF_HD(std::size_t i) { set_base(charge[i], order, nx, ny, nz); });
-  thrust::sort(on_device(), sorted.begin(), sorted.end(), InOrder());
-  row_first = first_of_rows(sorted.size(), static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz),
-                            [=] ESPDIFF_HD(std::size_t i) { return std::size_t{charge[i].row}; });
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t i) {
+    set_base(charge[i], order, nx, ny, nz);
+    key[i] = key_in_row(charge[i], nx);
+    item[i] = static_cast<std::uint32_t>(i);
+  });
+  constexpr int kAllBits = 32;
+  sort_by_key(keys, items, kAllBits);
+  // The buffers may have been exchanged.
+  std::uint32_t* const row = raw(keys);
+  const std::uint32_t* const by_x = raw(items);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t i) { row[i] = charge[by_x[i]].row; });
+  sort_by_key(keys, items, bits_below(n_rows + 1));
+  sort_equal_keys(charges, nx, n_rows, items);
+  Buffer<GridCharge> sorted(n);
+  GridCharge* const to = raw(sorted);
+  const std::uint32_t* const from = raw(items);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t i) { to[i] = charge[from[i]]; });
+  row_first = first_of_rows(n, n_rows, [=] ESPDIFF_HD(std::size_t i) { return std::size_t{to[i].row}; });
   return sorted;
 }
 
 #else
 
 // Counting sort by row, then the few charges of each row by comparison.
-Buffer<GridCharge> sort_by_rows(std::vector<GridCharge>& charges, const std::array<int, 3>& size, int order,
+Buffer<GridCharge> sort_by_rows(Buffer<GridCharge> charges, const std::array<int, 3>& size, int order,
                                 Buffer<std::uint32_t>& row_first) {
-  row_first.assign(static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]) + 1, 0);
+  const std::size_t n_rows = static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]);
+  row_first.assign(n_rows + 1, 0);
   std::uint32_t* const rows = raw(row_first);
   for (GridCharge& c : charges) {
     set_base(c, order, size[0], size[1], size[2]);
-    ++rows[c.row + 1];
+    if (c.row < n_rows) ++rows[c.row + 1];
   }
   for (std::size_t r = 1; r < row_first.size(); ++r) rows[r] += rows[r - 1];
-  std::vector<std::uint32_t> next(rows, rows + row_first.size() - 1);
-  std::vector<GridCharge> sorted(charges.size());
-  for (const GridCharge& c : charges) sorted[next[c.row]++] = c;
+  std::vector<std::uint32_t> next(rows, rows + n_rows);
+  Buffer<GridCharge> sorted(rows[n_rows]);
   GridCharge* const first = sorted.data();
-  for_each_index(row_first.size() - 1,
-                 [=](std::size_t r) { std::sort(first + rows[r], first + rows[r + 1], InOrder()); });
-  return to_device(sorted);
+  for (const GridCharge& c : charges) {
+    if (c.row < n_rows) first[next[c.row]++] = c;
+  }
+  for_each_index(n_rows, [=](std::size_t r) { std::sort(first + rows[r], first + rows[r + 1], InOrder()); });
+  return sorted;
 }
 
 #endif
@@ -276,11 +348,11 @@ void spread_slabs_of_order(const SortedCharges<T>& charges, T* values, std::size
 }  // namespace
 
 template <typename T>
-SortedCharges<T> sort_charges(std::vector<GridCharge> charges, std::array<int, 3> size, int order) {
+SortedCharges<T> sort_charges(Buffer<GridCharge> charges, std::array<int, 3> size, int order) {
   SortedCharges<T> result;
   result.order = order;
   result.size = size;
-  const Buffer<GridCharge> sorted = sort_by_rows(charges, size, order, result.row_first);
+  const Buffer<GridCharge> sorted = sort_by_rows(std::move(charges), size, order, result.row_first);
   with_spline_order(order, [&](auto constant) { store_weights<decltype(constant)::value>(sorted, result); });
   return result;
 }
@@ -303,8 +375,8 @@ void spread_rounded(const SortedCharges<double>& charges, float* values) {
                     [&](auto constant) { spread_rounded_of_order<decltype(constant)::value>(charges, values); });
 }
 
-template SortedCharges<float> sort_charges(std::vector<GridCharge>, std::array<int, 3>, int);
-template SortedCharges<double> sort_charges(std::vector<GridCharge>, std::array<int, 3>, int);
+template SortedCharges<float> sort_charges(Buffer<GridCharge>, std::array<int, 3>, int);
+template SortedCharges<double> sort_charges(Buffer<GridCharge>, std::array<int, 3>, int);
 template void spread_by_slabs(const SortedCharges<float>&, float*, std::size_t);
 template void spread_by_slabs(const SortedCharges<double>&, double*, std::size_t);
 template void spread_by_points(const SortedCharges<float>&, float*, std::size_t);

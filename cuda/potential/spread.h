@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "cuda/surface/density/bspline.h"
 
@@ -27,9 +26,9 @@ struct SortedCharges {
   Buffer<T> weights;                ///< [charge][axis][stored weight]; those of z times the charge
 };
 
-/// @param charges with u and charge set
+/// @param charges with u and charge set; those of charge 0 are left out
 template <typename T>
-SortedCharges<T> sort_charges(std::vector<GridCharge> charges, std::array<int, 3> size, int order);
+SortedCharges<T> sort_charges(Buffer<GridCharge> charges, std::array<int, 3> size, int order);
 
 /// values(n) = sum_i q_i M(u_ix - n_x) M(u_iy - n_y) M(u_iz - n_z) on every grid point, slab after slab: each charge is
 /// visited for each slab that it touches. Adds in the order of spread_by_points() and gives the same bits.

@@ -14,7 +14,7 @@ import MDAnalysis
 import numpy as np
 from MDAnalysis.analysis.base import AnalysisBase, Results
 
-from ._core import InputError, metrics as list_metrics
+from ._core import Error, InputError, IoError, metrics as list_metrics
 from ._ensembles import ensemble, ensemble_in_parts
 from ._functions import Series
 from ._inputs import is_atomgroup, state_of
@@ -59,12 +59,23 @@ class SurfacePotential(AnalysisBase):
     def get_supported_backends(cls):
         return ("serial", "multiprocessing", "dask")
 
-    if ResultsGroup is None:
-
-        def run(self, start=None, stop=None, step=None, frames=None, verbose=None, *, backend="serial", n_workers=1, **options):
-            if backend != "serial" or n_workers != 1:
-                _refuse_workers(backend)
+    def run(self, start=None, stop=None, step=None, frames=None, verbose=None, *, backend=None, n_workers=None, **options):
+        """As AnalysisBase.run(); a trajectory that cannot be read is an espdiff.IoError."""
+        if ResultsGroup is not None:
+            options.update(backend=backend, n_workers=n_workers)
+        elif backend not in (None, "serial") or n_workers not in (None, 1):
+            _refuse_workers(backend)
+        try:
             return super().run(start, stop, step, frames, verbose, **options)
+        except (EOFError, OSError, RuntimeError) as error:
+            if isinstance(error, Error):
+                raise
+            said = str(error).splitlines()[0] if str(error) else type(error).__name__
+            # What is said of a DCD that was cut off.
+            if said == "generator raised StopIteration":
+                said = "it ends too early"
+            raise IoError(f"{self._trajectory.filename}: MDAnalysis cannot read all of its frames ({said}); copy or write the "
+                          "file again, or name the frames that are whole, run(frames=[...])") from error
 
     def __init__(self, atomgroup, reference=0, *, residues=False, threads=0, verbose=False, **options):
         if not is_atomgroup(atomgroup):

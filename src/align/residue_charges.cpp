@@ -19,15 +19,15 @@ using ChargesTable = std::unordered_map<std::string_view, std::vector<int>>;
 /// Names that say a state, or modified residues with one charge.
 const ChargesTable& charges_of_names() {
   static const ChargesTable table = {
-      {"ASH", {0}},      {"ASPP", {0}},     {"ASPH", {0}},     {"AS0", {0}},    {"GLH", {0}},     {"GLUP", {0}},
-      {"GLUH", {0}},     {"GL0", {0}},      {"HID", {0}},      {"HIE", {0}},    {"HSD", {0}},     {"HSE", {0}},
-      {"HISD", {0}},     {"HISE", {0}},     {"HISA", {0}},     {"HISB", {0}},   {"HIP", {1}},     {"HSP", {1}},
-      {"HISH", {1}},     {"HI+", {1}},      {"LYN", {0}},      {"LSN", {0}},    {"LY0", {0}},     {"LYSH", {1}},
-      {"ARN", {0}},      {"AR0", {0}},      {"ARGN", {0}},     {"CYX", {0}},    {"CYS2", {0}},    {"CYSH", {0}},
-      {"CSS", {0}},      {"CYM", {-1}},     {"CY-", {-1}},     {"TYM", {-1}},   {"TY-", {-1}},    {"MSE", {0}},
-      {"HYP", {0}},      {"PCA", {0}},      {"M3L", {1}},      {"MLY", {0, 1}}, {"KCX", {-1}},    {"TYS", {-1}},
-      {"SEP", {-2, -1}}, {"TPO", {-2, -1}}, {"PTR", {-2, -1}}, {"OCS", {-1}},   {"CSD", {-1, 0}}, {"CSO", {0}},
-      {"CME", {0}},      {"LLP", {}},
+      {"ASH", {0}},      {"ASPP", {0}},   {"ASPH", {0}},    {"AS0", {0}},  {"GLH", {0}},      {"GLUP", {0}},
+      {"GLUH", {0}},     {"GL0", {0}},    {"HID", {0}},     {"HIE", {0}},  {"HSD", {0}},      {"HSE", {0}},
+      {"HISD", {0}},     {"HISE", {0}},   {"HISA", {0}},    {"HISB", {0}}, {"HIP", {1}},      {"HSP", {1}},
+      {"HISH", {1}},     {"HI+", {1}},    {"AR+", {1}},     {"LY+", {1}},  {"AS-", {-1}},     {"GL-", {-1}},
+      {"LYN", {0}},      {"LSN", {0}},    {"LY0", {0}},     {"LYSH", {1}}, {"ARN", {0}},      {"AR0", {0}},
+      {"ARGN", {0}},     {"CYX", {0}},    {"CYS2", {0}},    {"CYSH", {0}}, {"CSS", {0}},      {"CYM", {-1}},
+      {"CY-", {-1}},     {"TYM", {-1}},   {"TY-", {-1}},    {"MSE", {0}},  {"HYP", {0}},      {"PCA", {0}},
+      {"M3L", {1}},      {"MLY", {0, 1}}, {"KCX", {-1}},    {"TYS", {-1}}, {"SEP", {-2, -1}}, {"TPO", {-2, -1}},
+      {"PTR", {-2, -1}}, {"OCS", {-1}},   {"CSD", {-1, 0}}, {"CSO", {0}},  {"CME", {0}},      {"LLP", {}},
   };
   return table;
 }

@@ -16,19 +16,20 @@ using LetterTable = std::unordered_map<std::string_view, char>;
 /// The PDB name, then protonation states of Amber, CHARMM, Gromacs, OPLS and PARSE, then modified residues.
 const LetterTable& letters() {
   static const LetterTable table = {
-      {"ARGN", 'R'}, {"AS0", 'D'}, {"ASPH", 'D'}, {"CSS", 'C'},  {"CY-", 'C'},  {"CYSH", 'C'}, {"GL0", 'E'},
-      {"GLUH", 'E'}, {"HI+", 'H'}, {"HISA", 'H'}, {"HISB", 'H'}, {"LY0", 'K'},  {"LYSH", 'K'}, {"TY-", 'Y'},
-      {"PR+", 'P'},  {"PR-", 'P'}, {"ALA", 'A'},  {"ARG", 'R'},  {"ARN", 'R'},  {"AR0", 'R'},  {"ASN", 'N'},
-      {"ASP", 'D'},  {"ASH", 'D'}, {"ASPP", 'D'}, {"CYS", 'C'},  {"CYX", 'C'},  {"CYM", 'C'},  {"CYS2", 'C'},
-      {"CSO", 'C'},  {"CME", 'C'}, {"OCS", 'C'},  {"CSD", 'C'},  {"GLN", 'Q'},  {"GLU", 'E'},  {"GLH", 'E'},
-      {"GLUP", 'E'}, {"PCA", 'E'}, {"GLY", 'G'},  {"HIS", 'H'},  {"HSD", 'H'},  {"HSE", 'H'},  {"HSP", 'H'},
-      {"HID", 'H'},  {"HIE", 'H'}, {"HIP", 'H'},  {"HISD", 'H'}, {"HISE", 'H'}, {"HISH", 'H'}, {"ILE", 'I'},
-      {"LEU", 'L'},  {"LYS", 'K'}, {"LYN", 'K'},  {"LSN", 'K'},  {"MLY", 'K'},  {"M3L", 'K'},  {"KCX", 'K'},
-      {"LLP", 'K'},  {"MET", 'M'}, {"MSE", 'M'},  {"PHE", 'F'},  {"PRO", 'P'},  {"HYP", 'P'},  {"SER", 'S'},
-      {"SEP", 'S'},  {"THR", 'T'}, {"TPO", 'T'},  {"TRP", 'W'},  {"TYR", 'Y'},  {"TYM", 'Y'},  {"PTR", 'Y'},
-      {"TYS", 'Y'},  {"VAL", 'V'}, {"A", 'a'},    {"DA", 'a'},   {"RA", 'a'},   {"ADE", 'a'},  {"C", 'c'},
-      {"DC", 'c'},   {"RC", 'c'},  {"CYT", 'c'},  {"G", 'g'},    {"DG", 'g'},   {"RG", 'g'},   {"GUA", 'g'},
-      {"T", 't'},    {"DT", 't'},  {"THY", 't'},  {"U", 'u'},    {"RU", 'u'},   {"URA", 'u'},  {"URI", 'u'},
+      {"ARGN", 'R'}, {"AS0", 'D'},  {"ASPH", 'D'}, {"CSS", 'C'},  {"CY-", 'C'},  {"CYSH", 'C'}, {"GL0", 'E'},
+      {"GLUH", 'E'}, {"HI+", 'H'},  {"HISA", 'H'}, {"HISB", 'H'}, {"LY0", 'K'},  {"LYSH", 'K'}, {"TY-", 'Y'},
+      {"PR+", 'P'},  {"PR-", 'P'},  {"AR+", 'R'},  {"AS-", 'D'},  {"GL-", 'E'},  {"LY+", 'K'},  {"ALA", 'A'},
+      {"ARG", 'R'},  {"ARN", 'R'},  {"AR0", 'R'},  {"ASN", 'N'},  {"ASP", 'D'},  {"ASH", 'D'},  {"ASPP", 'D'},
+      {"CYS", 'C'},  {"CYX", 'C'},  {"CYM", 'C'},  {"CYS2", 'C'}, {"CSO", 'C'},  {"CME", 'C'},  {"OCS", 'C'},
+      {"CSD", 'C'},  {"GLN", 'Q'},  {"GLU", 'E'},  {"GLH", 'E'},  {"GLUP", 'E'}, {"PCA", 'E'},  {"GLY", 'G'},
+      {"HIS", 'H'},  {"HSD", 'H'},  {"HSE", 'H'},  {"HSP", 'H'},  {"HID", 'H'},  {"HIE", 'H'},  {"HIP", 'H'},
+      {"HISD", 'H'}, {"HISE", 'H'}, {"HISH", 'H'}, {"ILE", 'I'},  {"LEU", 'L'},  {"LYS", 'K'},  {"LYN", 'K'},
+      {"LSN", 'K'},  {"MLY", 'K'},  {"M3L", 'K'},  {"KCX", 'K'},  {"LLP", 'K'},  {"MET", 'M'},  {"MSE", 'M'},
+      {"PHE", 'F'},  {"PRO", 'P'},  {"HYP", 'P'},  {"SER", 'S'},  {"SEP", 'S'},  {"THR", 'T'},  {"TPO", 'T'},
+      {"TRP", 'W'},  {"TYR", 'Y'},  {"TYM", 'Y'},  {"PTR", 'Y'},  {"TYS", 'Y'},  {"VAL", 'V'},  {"A", 'a'},
+      {"DA", 'a'},   {"RA", 'a'},   {"ADE", 'a'},  {"C", 'c'},    {"DC", 'c'},   {"RC", 'c'},   {"CYT", 'c'},
+      {"G", 'g'},    {"DG", 'g'},   {"RG", 'g'},   {"GUA", 'g'},  {"T", 't'},    {"DT", 't'},   {"THY", 't'},
+      {"U", 'u'},    {"RU", 'u'},   {"URA", 'u'},  {"URI", 'u'},
   };
   return table;
 }

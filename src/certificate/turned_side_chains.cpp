@@ -158,7 +158,10 @@ std::vector<std::optional<Fit>> fits_around(const std::vector<PairedResidue>& re
     if (const BothEnds* ca = residues[r].find("CA"); ca != nullptr) traces.emplace_back(r, ca);
   }
   std::vector<std::optional<Fit>> fits(residues.size());
-  for (std::size_t r = 0; r < residues.size(); ++r) {
+  const auto n = static_cast<std::ptrdiff_t>(residues.size());
+#pragma omp parallel for schedule(dynamic, 16)
+  for (std::ptrdiff_t residue = 0; residue < n; ++residue) {
+    const auto r = static_cast<std::size_t>(residue);
     const BothEnds* const ca = residues[r].find("CA");
     const std::vector<const BothEnds*> heavy = ca != nullptr ? std::vector{ca} : heavy_atoms(residues[r]);
     if (heavy.empty()) continue;
@@ -220,7 +223,10 @@ std::vector<TurnedAtom> turned_atoms(const Molecule& source, const Molecule& tar
   }
   const std::vector<std::optional<Fit>> around = fits_around(residues);
   std::vector<TurnedAtom> turned(source.size());
-  for (std::size_t r = 0; r < residues.size(); ++r) {
+  const auto n = static_cast<std::ptrdiff_t>(residues.size());
+#pragma omp parallel for schedule(dynamic, 16)
+  for (std::ptrdiff_t residue = 0; residue < n; ++residue) {
+    const auto r = static_cast<std::size_t>(residue);
     const std::optional<Rotation> backbone = residues[r].of_backbone();
     if (!backbone) {
       if (around[r]) mark_ligand(residues[r], *around[r], turned);

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,9 @@ class Engine {
   virtual std::string description() const = 0;
   /// Threads used by the CPU back end; 0 on a device.
   virtual int n_threads() const = 0;
+  /// Another engine on the same device, for another thread to use at the same time.
+  /// @param n_threads of the CPU back end; a device ignores it
+  virtual std::unique_ptr<Engine> beside(int n_threads) const = 0;
   /// Milliseconds that calls of this engine take: between two events on a device's stream, or by the clock on the CPU.
   /// For benchmarks.
   virtual double elapsed_ms(const std::function<void()>& calls) = 0;

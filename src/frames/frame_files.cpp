@@ -2,10 +2,12 @@
 #include "frames/frame_files.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include "base/error.h"
 #include "io/frames/dcd_head.h"
+#include "io/frames/xdr_frames.h"
 #include "io/structures/structure_file.h"
 
 namespace espdiff {
@@ -15,21 +17,29 @@ FrameFiles::FrameFiles(std::vector<std::string> paths, OpenStructure open)
   first_.push_back(0);
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     load(i);
-    compare_with_head(paths_[i], file_->n_models());
+    compare_with_size(paths_[i], file_->n_models());
     first_.push_back(first_.back() + file_->n_models());
     sha256_.push_back(file_->sha256());
   }
 }
 
-/// Readers take a DCD that was cut off for a whole one.
-void FrameFiles::compare_with_head(const std::string& path, int n_read) {
-  const std::optional<DcdHead> head = read_dcd_head(path);
-  if (!head) return;
-  if (head->n_whole != n_read)
+/// Readers take a DCD, XTC or TRR that was cut off for a whole one.
+void FrameFiles::compare_with_size(const std::string& path, int n_read) {
+  std::int64_t n_whole = 0;
+  std::string missing;
+  if (const std::optional<DcdHead> head = read_dcd_head(path)) {
+    n_whole = head->n_whole;
+    missing = head->missing();
+  } else if (const std::optional<XdrFrames> frames = read_xdr_frames(path)) {
+    n_whole = frames->have_positions ? frames->n_whole : n_read;
+    missing = frames->missing;
+  } else {
+    return;
+  }
+  if (n_whole != n_read)
     throw FormatError(path, 0,
-                      "has " + std::to_string(head->n_whole) + " whole frames by its size, and its reader finds " +
+                      "has " + std::to_string(n_whole) + " whole frames by its size, and its reader finds " +
                           std::to_string(n_read) + "; copy or write the file again");
-  const std::string missing = head->missing();
   if (incomplete_.empty() && !missing.empty()) incomplete_ = path + " " + missing;
 }
 

@@ -18,11 +18,12 @@ class FrameFiles {
  public:
   /// Reads every file, to count its models. A file that is read again must have the same content.
   /// @param open how a file is opened, for trajectories
-  /// @throws as `open`; InputError without a file; FormatError (a reader finds other frames in a DCD than it has)
+  /// @throws as `open`; InputError without a file; FormatError (a reader finds other frames in a DCD, XTC or TRR than
+  /// it has)
   explicit FrameFiles(std::vector<std::string> paths, OpenStructure open = open_structure);
 
   int n_frames() const { return first_.back(); }
-  /// What is missing of a DCD, with the file's name; empty where all are whole. See DcdHead::missing().
+  /// What is missing of a DCD, XTC or TRR, with the file's name; empty where all are whole. See DcdHead::missing().
   const std::string& incomplete() const { return incomplete_; }
   const std::vector<std::string>& paths() const { return paths_; }
   /// "FILE, model N" of a frame, for messages.
@@ -40,7 +41,7 @@ class FrameFiles {
  private:
   std::size_t file_of(int frame) const;
   void load(std::size_t file);
-  void compare_with_head(const std::string& path, int n_read);
+  void compare_with_size(const std::string& path, int n_read);
 
   std::vector<std::string> paths_;
   OpenStructure open_;

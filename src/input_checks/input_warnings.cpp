@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <exception>
+#include <functional>
 #include <map>
 #include <set>
 #include <string_view>
@@ -273,26 +276,57 @@ void check_radii(const Molecule& source, const Molecule& target, const AtomPairi
                       sum / n > kMostRadii_A});
 }
 
+/// Runs checks beside each other. @returns [check] its warnings
+/// @throws what the first of those that fail throws
+std::vector<std::vector<Warning>> by_all(const std::vector<std::function<void(std::vector<Warning>&)>>& checks) {
+  std::vector<std::vector<Warning>> warnings(checks.size());
+  std::vector<std::exception_ptr> errors(checks.size());
+  const auto n = static_cast<std::ptrdiff_t>(checks.size());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::ptrdiff_t k = 0; k < n; ++k) {
+    const auto check = static_cast<std::size_t>(k);
+    try {
+      checks[check](warnings[check]);
+    } catch (...) {
+      errors[check] = std::current_exception();
+    }
+  }
+  for (const std::exception_ptr& error : errors) {
+    if (error != nullptr) std::rethrow_exception(error);
+  }
+  return warnings;
+}
+
 }  // namespace
 
 std::vector<Warning> input_warnings(const Molecule& source, const Molecule& target, const CompareResult& result) {
-  std::vector<Warning> warnings;
   const PairedMolecules pair(source, target, result.pairing);
-  check_chains(pair, warnings);
-  check_geometry("source", pair.source, warnings);
-  check_geometry("target", pair.target, warnings);
-  const bool source_is_known = check_charges("source", pair.source, warnings),
-             target_is_known = check_charges("target", pair.target, warnings);
-  if (source_is_known && target_is_known) check_paired_charges(pair.source, pair.target, result, warnings);
-  check_chirality(pair, warnings);
-  check_register(pair, result, warnings);
-  check_side_chains(pair, warnings);
-  check_rmsd(source, target, result, warnings);
-  check_arrangement(source, target, result, warnings);
-  check_ligands(pair.source, result, warnings);
-  check_poses(pair, result.pairing, warnings);
-  check_radii(source, target, result.pairing, warnings);
-  return warnings;
+  bool source_is_known = false, target_is_known = false;
+  using Warnings = std::vector<Warning>;
+  const auto warnings = by_all({
+      [&](Warnings& w) { check_chains(pair, w); },
+      [&](Warnings& w) { check_geometry("source", pair.source, w); },
+      [&](Warnings& w) { check_geometry("target", pair.target, w); },
+      [&](Warnings& w) { source_is_known = check_charges("source", pair.source, w); },
+      [&](Warnings& w) { target_is_known = check_charges("target", pair.target, w); },
+      [&](Warnings& w) { check_chirality(pair, w); },
+      [&](Warnings& w) { check_register(pair, result, w); },
+      [&](Warnings& w) { check_side_chains(pair, w); },
+  });
+  Warnings all;
+  const auto add = [&](std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k < end; ++k) all.insert(all.end(), warnings[k].begin(), warnings[k].end());
+  };
+  constexpr std::size_t kAfterCharges = 5;
+  add(0, kAfterCharges);
+  if (source_is_known && target_is_known) check_paired_charges(pair.source, pair.target, result, all);
+  add(kAfterCharges, warnings.size());
+  check_rmsd(source, target, result, all);
+  check_arrangement(source, target, result, all);
+  check_ligands(pair.source, result, all);
+  check_poses(pair, result.pairing, all);
+  check_radii(source, target, result.pairing, all);
+  return all;
 }
 
 }  // namespace espdiff

@@ -78,8 +78,11 @@ class MapReferences {
   struct Sums {
     std::vector<double> vacuum, direct, screened;
   };
-  Sums sum_charges() const;
+  /// Kept: the source's serve all targets.
+  const Sums& sums_of_charges() const;
   std::vector<double> periodic(const Grid& map) const;
+
+  mutable std::optional<Sums> sums_{};
 };
 
 /// A map's value at a point of its own frame: trilinear, axes may be skewed; NaN outside.

@@ -92,7 +92,10 @@ PairedMolecules::PairedMolecules(const Molecule& source_molecule, const Molecule
       target_links(chain_links(target)),
       surroundings(source, target, target_of),
       motions(target_of.size()) {
-  for (std::size_t r = 0; r < target_of.size(); ++r) {
+  const auto n = static_cast<std::ptrdiff_t>(target_of.size());
+#pragma omp parallel for schedule(dynamic, 16)
+  for (std::ptrdiff_t residue = 0; residue < n; ++residue) {
+    const auto r = static_cast<std::size_t>(residue);
     const std::ptrdiff_t trace = trace_atom(source, r);
     if (trace < 0 || target_of[r] < 0) continue;
     motions[r] = surroundings.motion_around(source_molecule.positions[static_cast<std::size_t>(trace)],

@@ -49,13 +49,14 @@ std::string to_string(const Shard& shard);
 /// that one process, or two at a shard's border, prepares each source. Shards differ in size by at most one.
 std::vector<MatrixPair> matrix_pairs(std::size_t n_variants, const Shard& shard = {});
 
-/// Compares pairs in the given order. A source's surface is made and regularized once for consecutive pairs. A target's
-/// surface is made again for each pair, along the axes of the source, as in compare(). By RadiiChoice::kAuto a pair
-/// whose radii are of different kinds takes Bondi's on both sides, whatever the others have: a cell has the same bits
-/// as compare() of its pair, in any order and part of the matrix.
+/// Compares pairs, several at a time by threads of their own (workers_for()). A source's surface is made and
+/// regularized once for consecutive pairs of a thread. A target's surface is made again for each pair, along the axes
+/// of the source, as in compare(). By RadiiChoice::kAuto a pair whose radii are of different kinds takes Bondi's on
+/// both sides, whatever the others have: a cell has the same bits as compare() of its pair, in any order and part of
+/// the matrix.
 /// @param skip_errors a pair that cannot be compared becomes a cell with the error; otherwise its error is thrown, with
 /// the labels of the pair
-/// @param done        called with each finished cell
+/// @param done        called with each finished cell, in the given order, on this thread
 /// @param progress    gets "LABEL to LABEL: stage" and the fraction of `pairs` done
 /// @throws as compare()
 void compute_pairs(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,

@@ -26,19 +26,22 @@ bool is_output_unread() {
 
 QuietOutput::QuietOutput() {
   std::fflush(stdout);
-  kept_ = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-  if (kept_ < 0) return;
-  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (nowhere < 0) return;
-  dup2(nowhere, STDOUT_FILENO);
-  close(nowhere);
+  for (int i = 0; i < 2; ++i) {
+    kept_[i] = fcntl(STDOUT_FILENO + i, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    const int nowhere = kept_[i] < 0 ? -1 : open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) continue;
+    dup2(nowhere, STDOUT_FILENO + i);
+    close(nowhere);
+  }
 }
 
 QuietOutput::~QuietOutput() {
-  if (kept_ < 0) return;
   std::fflush(stdout);
-  dup2(kept_, STDOUT_FILENO);
-  close(kept_);
+  for (int i = 0; i < 2; ++i) {
+    if (kept_[i] < 0) continue;
+    dup2(kept_[i], STDOUT_FILENO + i);
+    close(kept_[i]);
+  }
 }
 
 }  // namespace espdiff

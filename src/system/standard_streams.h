@@ -12,8 +12,8 @@ bool is_error_stream_terminal();
 /// Whether standard output is a pipe that nobody reads any more.
 bool is_output_unread();
 
-/// While it lives, what the process prints on standard output is lost: VMD's plugins tell there what they read.
-/// Only one at a time, and none while another thread prints.
+/// While it lives, what the process prints on standard output and error is lost: VMD's plugins tell there what they
+/// read or could not. Only one at a time, and none while another thread prints.
 class QuietOutput {
  public:
   QuietOutput();
@@ -22,7 +22,7 @@ class QuietOutput {
   QuietOutput& operator=(const QuietOutput&) = delete;
 
  private:
-  int kept_ = -1;  // the standard output; -1 where it is closed
+  int kept_[2] = {-1, -1};  // standard output and error; -1 where it is closed
 };
 
 }  // namespace espdiff

@@ -14,8 +14,10 @@ TEST_CASE("possible_charges: names of all conventions") {
   for (const char* const name :
        {"ASH", "AS0", "ASPP", "GLH", "GL0", "GLUP", "LYN", "LY0", "LSN", "AR0", "HID", "HSE", "CYX", "ALA"})
     CHECK(possible_charges(name) == Charges{0});
-  for (const char* const name : {"HIP", "HSP", "HI+", "HISH", "LYSH"}) CHECK(possible_charges(name) == Charges{1});
-  for (const char* const name : {"CYM", "CY-", "TYM", "TY-", "DA", "RU"}) CHECK(possible_charges(name) == Charges{-1});
+  for (const char* const name : {"HIP", "HSP", "HI+", "HISH", "LYSH", "AR+", "LY+"})
+    CHECK(possible_charges(name) == Charges{1});
+  for (const char* const name : {"CYM", "CY-", "TYM", "TY-", "AS-", "GL-", "DA", "RU"})
+    CHECK(possible_charges(name) == Charges{-1});
   CHECK(possible_charges("NHIP") == Charges{1});
   CHECK(possible_charges("CASP") == Charges{-1, 0});
   CHECK(possible_charges("LLP").empty());
@@ -24,6 +26,7 @@ TEST_CASE("possible_charges: names of all conventions") {
 
 TEST_CASE("residue_letter: PARSE's names of protonation states are those of their residues") {
   CHECK(same_residue_name("GL0", "GLU"));
+  CHECK(same_residue_name("AR+", "ARG"));
   CHECK(same_residue_name("AS0", "ASP"));
   CHECK(same_residue_name("LY0", "LYS"));
   CHECK(same_residue_name("TY-", "TYR"));

@@ -10,7 +10,9 @@
 
 namespace espdiff_test {
 
-inline std::unique_ptr<espdiff::Engine> cpu_engine() { return espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2); }
+inline std::unique_ptr<espdiff::Engine> cpu_engine(int n_threads = 2) {
+  return espdiff::select_engine(espdiff::DeviceChoice::kCpu, n_threads);
+}
 
 /// The same molecule bent more and more, in groups of two.
 inline std::vector<espdiff::Variant> made_variants(std::size_t n, std::size_t n_atoms = 60) {

@@ -107,6 +107,56 @@ TEST_CASE("every cell holds the bits of the comparison of its pair") {
   CHECK(n == 6);
 }
 
+TEST_CASE("pairs by several threads are handed over in order, with the bits and the error of one after the other") {
+  std::vector<Variant> variants = made_variants(4);
+  const std::vector<MatrixPair> pairs = espdiff::matrix_pairs(4);
+  const auto cells_by = [&](int n_threads, std::vector<MatrixCell>& cells) {
+    return message_of([&] {
+      espdiff::compute_pairs(*cpu_engine(n_threads), variants, matrix_options(), pairs, false,
+                             [&](const MatrixCell& cell) { cells.push_back(cell); }, {});
+    });
+  };
+  std::vector<MatrixCell> one, three;
+  cells_by(1, one);
+  cells_by(3, three);
+  REQUIRE(one.size() == pairs.size());
+  REQUIRE(three.size() == pairs.size());
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    CHECK(MatrixPair(three[p].source, three[p].target) == pairs[p]);
+    for (std::size_t m = 0; m < one[p].values.size(); ++m) {
+      const double a = one[p].values[m], b = three[p].values[m];
+      CHECK((a == b || (std::isnan(a) && std::isnan(b))));
+    }
+    CHECK(one[p].reasons == three[p].reasons);
+  }
+  variants[2].map->lattice.origin += Vec3d{500, 0, 0};  // covers nothing
+  std::vector<MatrixCell> before_one, before_three;
+  const std::string error = cells_by(1, before_one);
+  CHECK(contains(error, "v0 to v2: "));
+  CHECK(cells_by(3, before_three) == error);
+  CHECK(before_one.size() == 1);
+  CHECK(before_three.size() == 1);
+}
+
+TEST_CASE("pairs that other threads have finished are kept when a run is cancelled") {
+  const ScratchFolder folder;
+  const auto engine = cpu_engine(3);
+  const std::vector<Variant> variants = made_variants(4);
+  run_matrix(*engine, variants, matrix_options(), run_to(folder.file("whole")), {});
+  MatrixRun run = run_to(folder.file("stopped"));
+  Stopper stopper(2);
+  const std::string message =
+      message_of([&] { run_matrix(*engine, variants, matrix_options(), run, *stopper.progress); });
+  CHECK(contains(message, "of 12 pairs, which "));
+  CHECK(contains(message, "resume continues"));
+  run.resume = true;
+  const MatrixReport report = run_matrix(*engine, variants, matrix_options(), run, {});
+  CHECK(contains(message, "cancelled after " + std::to_string(report.n_resumed) + " of 12 pairs"));
+  CHECK(report.n_resumed >= 2);
+  CHECK(read_file(folder.file("stopped.csv")) == read_file(folder.file("whole.csv")));
+  CHECK(read_file(folder.file("stopped.json")) == read_file(folder.file("whole.json")));
+}
+
 TEST_CASE("a variant whose radii are of another force field changes no cell but its own, which are its pairs'") {
   const auto engine = cpu_engine();
   std::vector<Variant> variants = made_variants(3);
@@ -194,7 +244,7 @@ TEST_CASE("shapes alone: metrics of potentials have no values, and variants clus
 
 TEST_CASE("an interrupted run continues and writes the same bytes; so do parts that are merged") {
   const ScratchFolder folder;
-  const auto engine = cpu_engine();
+  const auto engine = cpu_engine(1);  // pairs one after the other, so that the fifth is the last
   const std::vector<Variant> variants = made_variants(4);
   run_matrix(*engine, variants, matrix_options(), run_to(folder.file("whole")), {});
   const std::string csv = read_file(folder.file("whole.csv")), json = read_file(folder.file("whole.json"));

@@ -230,6 +230,20 @@ TEST_CASE("a nucleotide that no force field has gets charges within its chain; b
   CHECK(modified.preparation.groups[0].find(": -1 e, in its chain, by Open Babel") != std::string::npos);
 }
 
+TEST_CASE("rename_residues: charged residues by the names of Insight II get those of the PDB") {
+  Molecule molecule;
+  int number = 5;
+  for (const char* const name : {"AR+", "LY+", "AS-", "GL-", "ARG"})
+    molecule.residues.push_back({name, "A", ++number, ' '});
+  Preparation preparation;
+  rename_residues(molecule, preparation);
+  std::vector<std::string> names;
+  for (const Residue& residue : molecule.residues) names.push_back(residue.name);
+  CHECK(names == std::vector<std::string>{"ARG", "LYS", "ASP", "GLU", "ARG"});
+  REQUIRE(preparation.renamed.size() == 4);
+  CHECK(preparation.renamed[0] == "AR+ 6 of chain A as ARG");
+}
+
 TEST_CASE("rename_residues: the phosphate at the 5' end is left out with a warning, those within the chain stay") {
   const auto nucleotide = [](int number, double x) {
     return record(1, " P", "  G", number, {x, 0, 0}, "P") + record(2, " OP3", "  G", number, {x, 1.5, 0}, "O") +

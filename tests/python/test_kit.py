@@ -18,6 +18,14 @@ def entry(name):
 
 
 def test_metadata():
+    # The registry's required entries (mdakits/template/metadata.yaml there).
+    text = (REPOSITORY / "python" / "metadata.yaml").read_text()
+    for name in ("project_name authors maintainers description keywords license project_home documentation_home "
+                 "documentation_type src_install import_name python_requires mdanalysis_requires run_tests test_dependencies "
+                 "project_org").split():
+        assert re.search(rf"^{name}:", text, re.MULTILINE), name
+    # Tests that are no part of the package are fetched by this line, which the registry replaces.
+    assert "run_tests:\n  - git clone latest\n" in text
     assert entry("project_name") == entry("import_name") == re.search(r'^name = "(.*)"', PYPROJECT, re.MULTILINE).group(1)
     assert entry("python_requires") == re.search(r'^requires-python = "(.*)"', PYPROJECT, re.MULTILINE).group(1)
     assert f"MDAnalysis{entry('mdanalysis_requires')}" in PYPROJECT

@@ -37,6 +37,44 @@ def test_empty_and_missing(universe):
         SurfacePotential(universe.atoms, reference=9999, **QUICK).run(stop=1)
 
 
+@pytest.fixture
+def row(tmp_path):
+    """Nine carbon atoms in three frames, without charges, and their DCD."""
+    def atom(i, frame):
+        return (f"ATOM  {i + 1:5d}  CA  ALA A{i + 1:4d}    {1.5 * i:8.3f}{0.6 * (i % 2):8.3f}{0.2 * frame * max(0, i - 4):8.3f}"
+                "  1.00  0.00           C\n")
+    (tmp_path / "row.pdb").write_text("".join(
+        f"MODEL {frame + 1:8d}\n" + "".join(atom(i, frame) for i in range(9)) + "ENDMDL\n" for frame in range(3)) + "END\n")
+    made = mda.Universe(str(tmp_path / "row.pdb"))
+    with mda.Writer(str(tmp_path / "row.dcd"), 9) as writer:
+        for _ in made.trajectory:
+            writer.write(made.atoms)
+    return mda.Universe(str(tmp_path / "row.pdb"), str(tmp_path / "row.dcd"))
+
+
+def test_a_universe_without_charges(row):
+    for options in ({}, {"potential": "coulomb"}):
+        with pytest.raises(espdiff.InputError, match="row.pdb, frame 0: has no charges, and PDB2PQR .*topology=.FILE.") as error:
+            SurfacePotential(row.atoms, **options).run()
+        assert "\n" not in str(error.value)
+    empty = mda.Universe.empty(5, trajectory=True)
+    with pytest.raises(espdiff.InputError, match="source: radii: the topology has none, .*add_TopologyAttr"):
+        espdiff.compare(empty, row)
+    with pytest.raises(espdiff.InputError, match="source: the universe has no coordinates; load a trajectory"):
+        espdiff.compare(mda.Universe.empty(5), row)
+
+
+def test_a_trajectory_that_ends_too_early_or_is_gone(row, tmp_path):
+    path = tmp_path / "row.dcd"
+    whole = path.read_bytes()
+    path.write_bytes(whole[:-40])
+    again = r"row\.dcd: MDAnalysis cannot read all of its frames \(it ends too early\); copy or write the file again, or name "
+    with pytest.raises(espdiff.IoError, match=again):
+        SurfacePotential(row.atoms, potential="none", grid_spacing=2).run()
+    run = SurfacePotential(row.atoms, potential="none", grid_spacing=2).run(frames=[0, 1])
+    assert list(run.results.frames) == [0, 1]
+
+
 def test_frames_have_the_numbers_of_compare(universe):
     atoms = universe.select_atoms("protein")
     options = {"potential": "none", "grid_spacing": 2, "threads": 1}

@@ -86,6 +86,18 @@ TEST_CASE("a reader that finds frames that a DCD has no room for is not believed
         path + ": has 3 whole frames by its size, and its reader finds 4; copy or write the file again");
 }
 
+TEST_CASE("an XTC whose last frame was cut off is as incomplete as such a DCD") {
+  const ScratchFolder folder;
+  std::string frame(80, '\0');  // of two atoms
+  frame.replace(2, 2, "\x07\xcb").replace(7, 1, "\x02").replace(55, 1, "\x02");
+  const std::string whole = frame + frame + frame;
+  const std::string path = folder.write("a.xtc", whole.substr(0, 200));
+  CHECK(FrameFiles({path}, reader_of(2)).incomplete() == path + " is cut off in frame 2 (40 bytes of it are there)");
+  CHECK(message_of([&] { FrameFiles({path}, reader_of(3)); }) ==
+        path + ": has 2 whole frames by its size, and its reader finds 3; copy or write the file again");
+  CHECK(FrameFiles({folder.write("b.xtc", whole)}, reader_of(3)).incomplete().empty());
+}
+
 TEST_CASE("coordinates that cannot be are the error of their frame") {
   const ScratchFolder folder;
   const std::string path = folder.write("a.xtc", "read by nobody");

@@ -29,7 +29,7 @@ SortedCharges<double> charges_on_grid(const std::vector<PbAtom>& atoms, const Cu
     placed.push_back(c);
   }
   constexpr int kCubic = 4;
-  return sort_charges<double>(std::move(placed), {lattice.size[0], lattice.size[1], lattice.size[2]}, kCubic);
+  return sort_charges<double>(to_device(placed), {lattice.size[0], lattice.size[1], lattice.size[2]}, kCubic);
 }
 
 /// Sets the border of phi to trilinear samples of a wider map.

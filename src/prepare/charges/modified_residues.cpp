@@ -8,6 +8,7 @@
 #include <set>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "align/protonation.h"
 #include "align/residue_names.h"
@@ -70,6 +71,20 @@ void replace_selenomethionine(Molecule& molecule, Preparation& preparation) {
     if (atom.name == "SE") {
       atom.name = "SD";
       atom.element = "S";
+    }
+  }
+}
+
+/// Insight II, and the models that it made, name residues by their charges.
+void name_charged_residues(Molecule& molecule, Preparation& preparation) {
+  constexpr std::pair<std::string_view, const char*> kNames[] = {
+      {"AR+", "ARG"}, {"LY+", "LYS"}, {"AS-", "ASP"}, {"GL-", "GLU"}};
+  for (Residue& residue : molecule.residues) {
+    for (const auto& [name, usual] : kNames) {
+      if (residue.name != name) continue;
+      preparation.renamed.push_back(residue_in_words(residue) + " as " + usual);
+      residue.name = usual;
+      break;
     }
   }
 }
@@ -238,6 +253,7 @@ void append_residue(Molecule& all, const Molecule& one) {
 
 void rename_residues(Molecule& molecule, Preparation& preparation) {
   replace_selenomethionine(molecule, preparation);
+  name_charged_residues(molecule, preparation);
   name_deoxynucleotides(molecule, preparation);
   drop_end_phosphates(molecule, preparation);
 }

@@ -13,8 +13,9 @@ namespace espdiff {
 struct Preparation;
 
 /// Gives residues the names by which the force fields have them: selenomethionine becomes methionine, with sulfur;
-/// deoxynucleotides under the names of RNA, as in files of before 2007, get those of DNA. Drops the phosphate at the 5'
-/// end of a chain, with a warning: no force field has one.
+/// the charged residues of Insight II (AR+, LY+, AS-, GL-) those of the PDB; deoxynucleotides under the names of RNA,
+/// as in files of before 2007, get those of DNA. Drops the phosphate at the 5' end of a chain, with a warning: no force
+/// field has one.
 void rename_residues(Molecule& molecule, Preparation& preparation);
 
 /// Where the charges of an amino acid come from: kNone for those that the force fields have. kPhosphate for SEP, TPO

@@ -127,6 +127,34 @@ TEST_CASE("the same bits for 1, 2 and 4 threads, on repetition, and for any orde
   }
 }
 
+TEST_CASE("atoms in one row and at one place along it add up the same in any order") {
+  const PmeCell cell = cell_of({30, 30, 30}, {90, 90, 90}, {});
+  Charges atoms;
+  for (int i = 0; i < 600; ++i) {  // all within one row of the grid; a third at one x, some of no charge
+    const double part = 0.001 * ((i * 7919) % 600);
+    atoms.positions.push_back({i % 3 == 0 ? 2.5 : 2.3 + 0.5 * part, 1.2 + 0.4 * part, 3.3 - 0.4 * part});
+    atoms.charges.push_back(i % 11 == 0 ? 0.0F : 0.1F * static_cast<float>(i % 13 - 6));
+  }
+  Charges turned = atoms;
+  std::reverse(turned.positions.begin(), turned.positions.end());
+  std::reverse(turned.charges.begin(), turned.charges.end());
+  Charges charged;
+  for (std::size_t i = 0; i < atoms.charges.size(); ++i) {
+    if (atoms.charges[i] == 0) continue;
+    charged.positions.push_back(atoms.positions[i]);
+    charged.charges.push_back(atoms.charges[i]);
+  }
+  for (const auto& engine : engines_with_fourier()) {
+    CAPTURE(engine->back_end());
+    const std::vector<float> first = pme_map(*engine, atoms, cell, options_for(cell, 1.0)).values;
+    for (const Charges* other : {&turned, &charged}) {
+      const std::vector<float> values = pme_map(*engine, *other, cell, options_for(cell, 1.0)).values;
+      REQUIRE(values.size() == first.size());
+      CHECK(std::memcmp(values.data(), first.data(), first.size() * sizeof(float)) == 0);
+    }
+  }
+}
+
 TEST_CASE("back ends agree") {
   const auto engines = engines_with_fourier();
   const PmeCell cell = cells()[1].cell;

@@ -31,7 +31,7 @@ std::vector<GridCharge> random_grid_charges(std::array<int, 3> size, std::size_t
 
 template <typename T>
 std::size_t n_different(std::array<int, 3> size, int order, std::size_t n, std::uint64_t seed) {
-  const auto sorted = sort_charges<T>(random_grid_charges(size, n, seed), size, order);
+  const auto sorted = sort_charges<T>(to_device(random_grid_charges(size, n, seed)), size, order);
   const std::size_t slab = static_cast<std::size_t>(size[0] * size[1]), stride = slab + 5;
   std::vector<T> a(stride * static_cast<std::size_t>(size[2])), b(a.size());
   spread_by_slabs(sorted, a.data(), stride);
@@ -60,7 +60,7 @@ TEST_CASE("a spread charge sums to the charge, around its position") {
   for (int order = 4; order <= 8; ++order) {
     const std::array<int, 3> size{20, 21, 22};
     GridCharge charge{{7.3, 9.8, 10.0}, 1.5F, 0, 0};
-    const auto sorted = sort_charges<double>({charge}, size, order);
+    const auto sorted = sort_charges<double>(to_device(std::vector<GridCharge>{charge}), size, order);
     std::vector<double> values(20 * 21 * 22);
     spread_by_slabs(sorted, values.data(), 20 * 21);
     double sum = 0, mean[3] = {0, 0, 0};

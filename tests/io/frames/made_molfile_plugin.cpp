@@ -20,6 +20,7 @@ struct Open {
 
 void* open_text(const char* path, const char* type, int* n_atoms) {
   std::printf("a plugin talks on standard output\n");
+  std::fprintf(stderr, "and on standard error\n");
   auto* const open = new Open{std::ifstream(path), 0, 0};
   open->file >> open->n_atoms;
   if (std::strcmp(type, "dcd") == 0) open->file >> open->edge;

@@ -1,0 +1,207 @@
+// workers.cpp: threads that take groups in order, and the thread that hands their items out in order.
+#include "engine/workers.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "base/memory.h"
+#include "engine/engine.h"
+#include "engine/select_engine.h"
+
+namespace espdiff {
+namespace {
+
+constexpr std::size_t kNoItem = static_cast<std::size_t>(-1);
+
+/// What one thread is at.
+struct Place {
+  Progress progress;
+  std::size_t item = kNoItem;
+  std::string stage;
+
+  explicit Place(const Progress::Listener& listener) : progress(listener) {}
+};
+
+/// What the threads share. Its threads end with it.
+class Team {
+ public:
+  Team(const Engine& engine, const Workers& workers, const ItemGroups& groups,
+       const std::function<ComputeItem(Engine&)>& begin)
+      : groups_(groups), begin_(begin), is_done_(groups.n_items, false) {
+    for (int w = 0; w < workers.n; ++w) {
+      const auto number = static_cast<std::size_t>(w);
+      places_.push_back(std::make_unique<Place>([this, number](const std::string& stage, double) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        places_[number]->stage = stage;
+      }));
+    }
+    for (const auto& place : places_)
+      threads_.emplace_back(
+          [this, &engine, each = workers.n_threads_each, at = place.get()] { run(engine, each, *at); });
+  }
+  ~Team() { stop(); }
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  /// Waits a moment for an item. @returns whether it is done
+  /// @throws its error
+  bool wait_for(std::size_t item) {
+    constexpr auto kMoment = std::chrono::milliseconds(20);
+    std::unique_lock<std::mutex> lock(mutex_);
+    news_.wait_for(lock, kMoment, [&] { return is_done_[item] || item == first_failed_; });
+    if (item == first_failed_) std::rethrow_exception(error_);
+    return is_done_[item];
+  }
+
+  /// The stage of an item that a thread is at; empty if none is.
+  std::string stage_of(std::size_t item) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& place : places_) {
+      if (place->item == item) return place->stage;
+    }
+    return {};
+  }
+
+  /// Cancels what is being computed and waits for the threads. Nothing changes afterwards.
+  void stop() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      next_group_ = groups_.ends.size();
+    }
+    for (const auto& place : places_) place->progress.request_cancel();
+    for (std::thread& thread : threads_) {
+      if (thread.joinable()) thread.join();
+    }
+  }
+
+  /// After stop(). @returns whether an item was computed
+  bool is_done(std::size_t item) const { return is_done_[item]; }
+
+ private:
+  void run(const Engine& engine, int n_threads_each, Place& place) {
+    const CancelScope scope(place.progress);
+    omp_set_num_threads(n_threads_each);  // for the loops outside the engine
+    std::unique_ptr<Engine> own;
+    ComputeItem compute;
+    std::size_t first = 0, end = 0;
+    while (take_group(first, end)) {
+      for (std::size_t item = first; item < end && begin_item(place, item); ++item) {
+        try {
+          if (own == nullptr) {
+            own = engine.beside(n_threads_each);
+            compute = begin_(*own);
+          }
+          compute(item, place.progress);
+          end_item(place, nullptr);
+        } catch (const Cancelled&) {
+          end_item(place, nullptr, false);
+          return;
+        } catch (...) {
+          end_item(place, std::current_exception());
+        }
+      }
+    }
+  }
+
+  bool take_group(std::size_t& first, std::size_t& end) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (next_group_ >= groups_.ends.size()) return false;
+    first = next_group_ == 0 ? 0 : groups_.ends[next_group_ - 1];
+    end = groups_.ends[next_group_++];
+    return true;
+  }
+
+  /// @returns whether it is to be computed: not behind one that failed
+  bool begin_item(Place& place, std::size_t item) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    place.item = item;
+    place.stage.clear();
+    return item < first_failed_;
+  }
+
+  void end_item(Place& place, const std::exception_ptr& error, bool is_computed = true) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (error == nullptr) {
+      is_done_[place.item] = is_computed;
+    } else if (place.item < first_failed_) {
+      first_failed_ = place.item;
+      error_ = error;
+    }
+    place.item = kNoItem;
+    news_.notify_one();
+  }
+
+  const ItemGroups& groups_;
+  const std::function<ComputeItem(Engine&)>& begin_;
+  std::mutex mutex_;
+  std::condition_variable news_;
+  std::size_t next_group_ = 0;
+  std::vector<bool> is_done_;
+  std::size_t first_failed_ = kNoItem;
+  std::exception_ptr error_;
+  std::vector<std::unique_ptr<Place>> places_;
+  std::vector<std::thread> threads_;
+};
+
+void compute_one_by_one(Engine& engine, std::size_t n_items, const std::function<ComputeItem(Engine&)>& begin,
+                        const std::function<void(std::size_t)>& done, const Progress& progress) {
+  const ComputeItem compute = begin(engine);
+  for (std::size_t item = 0; item < n_items; ++item) {
+    // Each item's stages start at 0 again; the whole run's bar advances by items only.
+    const Progress stages([&](const std::string& stage, double) {
+      progress.report(stage, static_cast<double>(item) / static_cast<double>(n_items));
+    });
+    compute(item, stages);
+    done(item);
+  }
+}
+
+}  // namespace
+
+Workers workers_for(const Engine& engine, std::size_t n_items, double bytes_each) {
+  // A pair takes the host several times as long as a card.
+  constexpr int kMostOnGpu = 16;
+  const bool is_cpu = engine.n_threads() > 0;
+  const int n_threads = is_cpu ? engine.n_threads() : available_threads();
+  const double held = std::min(available_memory() / bytes_each, static_cast<double>(n_items));
+  const int most = is_cpu ? n_threads : std::min(n_threads, kMostOnGpu);
+  Workers workers;
+  workers.n = std::max(1, static_cast<int>(std::min(static_cast<double>(most), held)));
+  workers.n_threads_each = std::max(1, n_threads / workers.n);
+  return workers;
+}
+
+void compute_items(Engine& engine, const Workers& workers, const ItemGroups& groups,
+                   const std::function<ComputeItem(Engine&)>& begin, const std::function<void(std::size_t)>& done,
+                   const Progress& progress) {
+  if (workers.n <= 1) {
+    compute_one_by_one(engine, groups.n_items, begin, done, progress);
+    return;
+  }
+  std::size_t next = 0;
+  Team team(engine, workers, groups, begin);
+  try {
+    while (next < groups.n_items) {
+      const bool is_done = team.wait_for(next);
+      if (is_done) done(next++);
+      if (next < groups.n_items)
+        progress.report(team.stage_of(next), static_cast<double>(next) / static_cast<double>(groups.n_items));
+    }
+  } catch (const Cancelled&) {
+    team.stop();
+    for (; next < groups.n_items; ++next) {
+      if (team.is_done(next)) done(next);
+    }
+    throw;
+  }
+}
+
+}  // namespace espdiff

@@ -1,0 +1,46 @@
+// workers.h: independent items computed by several threads, each with an engine of its own.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+
+namespace espdiff {
+
+class Engine;
+
+/// Threads that compute items beside each other, and how many threads each of their engines has on the CPU.
+struct Workers {
+  int n = 1;
+  int n_threads_each = 1;
+};
+
+/// As many as the engine has threads, or a few on a GPU, whose host is then not waited for; fewer where there are fewer
+/// items, or where memory does not hold so many.
+/// @param bytes_each of the host, that one item takes at a time
+Workers workers_for(const Engine& engine, std::size_t n_items, double bytes_each);
+
+/// Items in groups: what one thread computes one after the other, because they share something.
+struct ItemGroups {
+  std::size_t n_items = 0;
+  std::vector<std::size_t> ends;  ///< [group] ascending: where the next group begins; the last one is n_items
+};
+
+/// Computes one item; one thread's, so it may keep what its items share.
+using ComputeItem = std::function<void(std::size_t item, const Progress& progress)>;
+
+/// Computes all items. With one worker they are computed on this thread, by `engine`.
+/// @param begin gives each thread its function; called on that thread
+/// @param done  called on this thread for each item, in ascending order. After a request to cancel it is called for
+///        all items that were computed before it.
+/// @param progress gets the stage of the first item that is not done, and the fraction of items done; on this thread
+/// @throws what the first of the items that fail throws, after done() of all items before it; what done() throws;
+///         Cancelled
+void compute_items(Engine& engine, const Workers& workers, const ItemGroups& groups,
+                   const std::function<ComputeItem(Engine&)>& begin, const std::function<void(std::size_t)>& done,
+                   const Progress& progress);
+
+}  // namespace espdiff
