@@ -117,7 +117,7 @@ MorphResult project_ends(const MovingSurface& surface, const SurfaceMesh& mesh, 
   source.topology = mapped.topology = surface.topology;
   source.positions = surface.source;
   mapped.positions = surface.x;
-  auto on_source = project(source, source_atoms, isovalue, kLastShift_A);
+  auto on_source = project(source, source_atoms, isovalue, kLastShift_A, mesh.n_vertices());
   copy_on_device(raw(on_source->positions), raw(mesh.positions), mesh.n_vertices() * sizeof(Vec4f));
   MorphResult result;
   result.source = on_source;

@@ -19,6 +19,7 @@ struct Projection {
   const Vec4f* start;
   Vec4f* x;
   float isovalue, max_shift_A;
+  std::size_t first;  // vertices before it stay
 };
 
 /// One step of Newton's method at a vertex.
@@ -41,6 +42,7 @@ void vertex_by_vertex(const Projection& in, const AtomCells& atoms, const Buffer
   const std::uint32_t* const list = raw(order);
   for_each_index(order.size(), [=] ESPDIFF_HD(std::size_t i) {
     const std::uint32_t v = list[i];
+    if (v < in.first) return;
     for (int step = 0; step < kMaxNewtonSteps; ++step) {
       if (newton_step(in, v, density_at(cells, in.x[v].xyz()))) return;
     }
@@ -58,6 +60,11 @@ void step_by_step(const Projection& in, const AtomCells& atoms, const Buffer<Vec
   const DensitySample* const samples = raw(sampled);
   std::uint8_t* const done = raw(done_flags);
   std::size_t n_pending = n;
+  if (in.first > 0) {
+    const std::size_t first = in.first;
+    for_each_index(n, [=](std::size_t v) { done[v] = v < first ? 1 : 0; });
+    n_pending = drop_done(pending, n_pending, done_flags);
+  }
   for (int step = 0; n_pending > 0 && step < kMaxNewtonSteps; ++step) {
     density_at_points(atoms, positions, pending, n_pending, sampled);
     const std::uint32_t* const list = raw(pending);
@@ -72,11 +79,11 @@ void step_by_step(const Projection& in, const AtomCells& atoms, const Buffer<Vec
 #endif
 
 std::shared_ptr<SurfaceMesh> project_in_form(const SurfaceMesh& mesh, const AtomCells& atoms, float isovalue,
-                                             float max_shift_A, bool by_blocks) {
+                                             float max_shift_A, std::size_t first, bool by_blocks) {
   auto result = std::make_shared<SurfaceMesh>();
   result->topology = mesh.topology;
   result->positions = mesh.positions;
-  const Projection in{raw(mesh.positions), raw(result->positions), isovalue, max_shift_A};
+  const Projection in{raw(mesh.positions), raw(result->positions), isovalue, max_shift_A, first};
   Vec4f* const x = in.x;
   for_each_index(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { x[v].w = 0.0F; });
 #if !defined(__CUDACC__)
@@ -93,14 +100,14 @@ std::shared_ptr<SurfaceMesh> project_in_form(const SurfaceMesh& mesh, const Atom
 
 }  // namespace
 
-std::shared_ptr<SurfaceMesh> project(const SurfaceMesh& mesh, const AtomCells& atoms, float isovalue,
-                                     float max_shift_A) {
-  return project_in_form(mesh, atoms, isovalue, max_shift_A, true);
+std::shared_ptr<SurfaceMesh> project(const SurfaceMesh& mesh, const AtomCells& atoms, float isovalue, float max_shift_A,
+                                     std::size_t first) {
+  return project_in_form(mesh, atoms, isovalue, max_shift_A, first, true);
 }
 
 std::shared_ptr<SurfaceMesh> project_vertex_by_vertex(const SurfaceMesh& mesh, const AtomCells& atoms, float isovalue,
-                                                      float max_shift_A) {
-  return project_in_form(mesh, atoms, isovalue, max_shift_A, false);
+                                                      float max_shift_A, std::size_t first) {
+  return project_in_form(mesh, atoms, isovalue, max_shift_A, first, false);
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <utility>
+#include <vector>
 
 namespace espdiff {
 namespace {
@@ -37,25 +38,50 @@ Cell cell_of(const Eigen::Vector3d& p) {
 struct AtomNeighbourhoods {
   const std::vector<MovingAtom>& paths;
   std::vector<Eigen::Vector3d> start{}, end{};
-  std::map<Cell, std::vector<std::size_t>> cells{};  ///< by the start; of atoms present at both ends
+  /// Atoms that are present at both ends, sorted by the cells of their starts, then as they come.
+  std::vector<std::pair<Cell, std::size_t>> sorted{};
+  std::vector<double> x{}, y{}, z{};  ///< [sorted atom] the start
 
   explicit AtomNeighbourhoods(const std::vector<MovingAtom>& all) : paths(all) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       start.push_back(to_eigen(paths[i].start));
       end.push_back(to_eigen(paths[i].start + paths[i].own_path()));
-      if (paths[i].at_start && paths[i].at_end) cells[cell_of(start[i])].push_back(i);
+      if (paths[i].at_start && paths[i].at_end) sorted.emplace_back(cell_of(start[i]), i);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    for (const auto& [cell, i] : sorted) {
+      x.push_back(start[i].x());
+      y.push_back(start[i].y());
+      z.push_back(start[i].z());
     }
   }
 
+  std::size_t first_of(const Cell& cell) const {
+    const std::pair<Cell, std::size_t> least{cell, 0};
+    return static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), least) - sorted.begin());
+  }
+
+  /// Visits the atoms that start within reach, and a little more.
   template <typename Visit>
   void visit(std::size_t i, Visit visit) const {
+    constexpr std::size_t kAtOnce = 64;
+    constexpr double kLargestSquare = 1.000001 * kAtomReach_A * kAtomReach_A;
     const Cell c = cell_of(start[i]);
-    for (int x = c[0] - 1; x <= c[0] + 1; ++x) {
-      for (int y = c[1] - 1; y <= c[1] + 1; ++y) {
-        for (int z = c[2] - 1; z <= c[2] + 1; ++z) {
-          const auto found = cells.find({x, y, z});
-          if (found == cells.end()) continue;
-          for (const std::size_t j : found->second) visit(j);
+    const double from_x = start[i].x(), from_y = start[i].y(), from_z = start[i].z();
+    for (int cx = c[0] - 1; cx <= c[0] + 1; ++cx) {
+      for (int cy = c[1] - 1; cy <= c[1] + 1; ++cy) {
+        // Cells that follow each other along z are one range of atoms.
+        const std::size_t after = first_of({cx, cy, c[2] + 2});
+        for (std::size_t begin = first_of({cx, cy, c[2] - 1}); begin < after; begin += kAtOnce) {
+          const std::size_t n = std::min(kAtOnce, after - begin);
+          double square[kAtOnce];
+          for (std::size_t k = 0; k < n; ++k) {
+            const double dx = x[begin + k] - from_x, dy = y[begin + k] - from_y, dz = z[begin + k] - from_z;
+            square[k] = dx * dx + dy * dy + dz * dz;
+          }
+          for (std::size_t k = 0; k < n; ++k) {
+            if (square[k] < kLargestSquare) visit(sorted[begin + k].second);
+          }
         }
       }
     }

@@ -108,9 +108,11 @@ Mesh halved(const Mesh& mesh, Chosen chosen, std::size_t* n_new) {
 TEST_SUITE_BEGIN("morph");
 
 TEST_CASE("blocks of points and single points give the same bits") {
+  const std::vector<MovingAtom> few = random_paths(200, 21), many = random_paths(4000, 21);
   for (const std::size_t n_points : {1, 15, 16, 17, 1000}) {
-    for (const double time : {0.0, 0.3, 1.0}) {
-      const MovingAtoms atoms = atoms_at(random_paths(200, 21), time);
+    for (const double time : {0.0, 0.3, 1.0, 0.6}) {
+      // More atoms near the points than a list of them holds, at the last time.
+      const MovingAtoms atoms = atoms_at(time == 0.6 ? many : few, time);
       const Buffer<Vec4f> points = random_points(n_points, 12);
       const Buffer<std::uint32_t> order = spatial_order(points);
       Buffer<FlowSample> a(n_points), b(n_points);
@@ -146,6 +148,24 @@ TEST_CASE("vertices return to the level set with the same bits in blocks and one
     CHECK(to_host(blocks.unmatched) == to_host(singly.unmatched));
   }
   const std::vector<std::uint8_t> unmatched = to_host(blocks.unmatched);
+  // Of vertices that have settled, only those that moved since return.
+  const std::vector<Vec4f> before = to_host(blocks.x);
+  std::vector<Vec4f> moved = before;
+  for (std::size_t v = 0; v < moved.size(); v += 3) moved[v].x += 0.05F;
+  const MovingAtoms same_atoms = atoms_at(paths, 0.18);
+  blocks.x = to_device(moved);
+  singly.x = to_device(moved);
+  return_to_level_set(blocks, same_atoms, 0.5F, to_device(before));
+  return_vertex_by_vertex(singly, same_atoms, 0.5F, to_device(before));
+  const std::vector<Vec4f> after = to_host(blocks.x), after_singly = to_host(singly.x);
+  CHECK(std::memcmp(after.data(), after_singly.data(), after.size() * sizeof(Vec4f)) == 0);
+  std::size_t n_stay = 0, n_return = 0;
+  for (std::size_t v = 0; v < after.size(); ++v) {
+    if (v % 3 != 0) n_stay += std::memcmp(&after[v], &before[v], sizeof(Vec4f)) == 0 ? 1 : 0;
+    if (v % 3 == 0) n_return += norm(after[v].xyz() - before[v].xyz()) < 0.049F ? 1 : 0;
+  }
+  CHECK(n_stay == after.size() - (after.size() + 2) / 3);
+  CHECK(n_return > after.size() / 12);
   const auto n_unmatched = std::count(unmatched.begin(), unmatched.end(), 1);
   CHECK(n_unmatched > 0);
   CHECK(n_unmatched < static_cast<std::ptrdiff_t>(unmatched.size() / 2));
