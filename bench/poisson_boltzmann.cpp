@@ -269,6 +269,49 @@ void study_spacing(const std::string& name, const std::string& first, const std:
                 name.c_str(), 100 * std::fabs(halved / usual - 1));
 }
 
+/// What the border's values do to potentials on the surface and outside it: against 30 A of solvent.
+void measure_borders(const std::string& name, const std::string& path, int repeats) {
+  if (!is_there(path)) return;
+  const Molecule m = espdiff::read_structure(path);
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 1);
+  const auto atoms = engine->upload_atoms(m.positions, m.radii, std::vector<std::int32_t>(m.size(), 0));
+  const espdiff::Mesh mesh =
+      engine->download(engine->project(engine->isosurface(engine->density(atoms, 1.0), 0.5F), atoms, 0.5F, 1.0));
+  std::vector<espdiff::MeshPtr> surfaces;
+  for (const double offset_A : {0.0, 1.4, 3.0}) {
+    espdiff::Mesh outside = mesh;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+      outside.positions[v] = outside.positions[v] + static_cast<float>(offset_A) * mesh.normals[v];
+    surfaces.push_back(engine->upload_mesh(outside));
+  }
+  std::vector<std::vector<float>> wanted;
+  const auto row = [&](const std::string& border, double padding_A, espdiff::FarBoundary far_boundary) {
+    PoissonBoltzmannOptions options;
+    options.far_boundary = far_boundary;
+    const Lattice lattice = espdiff::poisson_boltzmann_lattice(m.positions, m.radii, 0.5, padding_A);
+    espdiff::GridPtr map;
+    const Seconds t = timed(wanted.empty() ? 1 : repeats, RUSAGE_SELF,
+                            [&] { map = potential(*engine, m, lattice, nullptr, nullptr, options); });
+    std::printf("border_%s,%s,%zu points,%.3f s", name.c_str(), border.c_str(), lattice.n_points(), t.cpu);
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+      const std::vector<float> found = engine->download(engine->sample(map, surfaces[s]));
+      if (wanted.size() == s) wanted.push_back(found);
+      double squares = 0, differences = 0;
+      for (std::size_t v = 0; v < found.size(); ++v) {
+        const double value = static_cast<double>(wanted[s][v]), off = static_cast<double>(found[v]) - value;
+        squares += value * value;
+        differences += off * off;
+      }
+      std::printf(",%.3f %%", 100 * std::sqrt(differences / squares));
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+  };
+  row("30 A", 30, espdiff::FarBoundary::kDebyeHueckel);
+  row("12 A", 12, espdiff::FarBoundary::kDebyeHueckel);
+  row("6 A and a wider grid", 6, espdiff::FarBoundary::kFocus);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -276,12 +319,16 @@ int main(int argc, char** argv) {
   int repeats = 5, largest = 257;
   double finest = 0.25;
   bool no_study = false;
+  std::vector<std::string> borders;
   app.add_option("--repeats", repeats, "The least of so many times counts");
   app.add_option("--largest", largest, "Points along an edge of the largest grid");
   app.add_option("--finest", finest, "Finest spacing of the study, Angstrom");
   app.add_flag("--no-study", no_study, "Times alone");
+  app.add_option("--borders", borders, "Nothing but what the border's values change, for these PQR files");
   CLI11_PARSE(app, argc, argv);
   try {
+    for (const std::string& path : borders) measure_borders(std::filesystem::path(path).stem().string(), path, repeats);
+    if (!borders.empty()) return 0;
     std::printf("case,threads,points,spacing_A,cycles,start_residual,residual,cpu_s,wall_s\n");
     Summary summary;
     measure_speed(repeats, summary);

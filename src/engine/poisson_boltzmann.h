@@ -25,7 +25,7 @@ enum class DielectricSmoothing {
 /// Values on the grid's border.
 enum class FarBoundary {
   kDebyeHueckel,  ///< the sum of all charges' Debye-Hueckel potentials in solvent (APBS' `mdh`)
-  kFocus          ///< the potential on a grid of twice the extent and twice the spacing, with that sum on its border
+  kFocus  ///< the potential on a grid of twice the spacing that reaches 20 A beyond the atoms, with that sum there
 };
 
 /// Parameters of Engine::poisson_boltzmann(). The defaults are those of APBS' examples, except the temperature.

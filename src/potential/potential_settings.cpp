@@ -70,8 +70,7 @@ void add_pb_settings(std::vector<PotentialSetting>& all) {
            "far-boundary", "", {{"debye-hueckel", FarBoundary::kDebyeHueckel}, {"focus", FarBoundary::kFocus}},
            [](auto& o) -> auto& { return o.pb.far_boundary; },
            "Values on the grid's border: the sum of all charges' Debye-Hueckel potentials, or those of a grid of twice "
-           "the "
-           "extent")});
+           "the spacing that reaches 20 Angstrom beyond the atoms")});
   all.push_back({"spacing", kPb,
                  Rows::number(
                      "pb-spacing", "", kPositive, [](auto& o) -> auto& { return o.pb_spacing_A; },

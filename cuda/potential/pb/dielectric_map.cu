@@ -153,27 +153,30 @@ void fill_gaussian(const std::vector<PbAtom>& atoms, const CubicLattice& lattice
 }
 
 void fill_faces(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, const PoissonBoltzmannOptions& options,
-                GridOperator& on_grid) {
+                GridOperator& on_grid, std::shared_ptr<const SoluteShape>& shape) {
   const bool molecular = options.dielectric_boundary == DielectricBoundary::kMolecular;
-  const SoluteShape shape(atoms, molecular ? static_cast<float>(options.probe_radius_A) : 0.0F);
+  if (shape == nullptr)
+    shape = std::make_shared<SoluteShape>(atoms, molecular ? static_cast<float>(options.probe_radius_A) : 0.0F);
   if (options.smoothing == DielectricSmoothing::kNinePoint) {
-    fill_by_nine_points(shape, lattice, options, on_grid);
+    fill_by_nine_points(*shape, lattice, options, on_grid);
   } else {
-    fill_by_edges(shape, lattice, options, on_grid);
+    fill_by_edges(*shape, lattice, options, on_grid);
   }
 }
 
 }  // namespace
 
 void fill_operator(const std::vector<PbAtom>& atoms, const CubicLattice& lattice,
-                   const PoissonBoltzmannOptions& options, float stern_k, GridOperator& on_grid) {
+                   const PoissonBoltzmannOptions& options, float stern_k, GridOperator& on_grid,
+                   std::shared_ptr<const SoluteShape>* shape) {
   on_grid.size = {lattice.size[0], lattice.size[1], lattice.size[2]};
   const std::size_t n = on_grid.size.points();
   for (Buffer<float>* buffer : {&on_grid.ex, &on_grid.ey, &on_grid.ez, &on_grid.diagonal}) buffer->resize(n);
   if (options.dielectric_boundary == DielectricBoundary::kGaussian) {
     fill_gaussian(atoms, lattice, options, on_grid);
   } else {
-    fill_faces(atoms, lattice, options, on_grid);
+    std::shared_ptr<const SoluteShape> own;
+    fill_faces(atoms, lattice, options, on_grid, shape == nullptr ? own : *shape);
   }
   float* const k = raw(on_grid.diagonal);
   if (stern_k > 0) {

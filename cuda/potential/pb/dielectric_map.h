@@ -8,6 +8,7 @@
 // `smol`).
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "cuda/potential/pb/multigrid.h"
@@ -45,7 +46,9 @@ class SoluteShape {
 
 /// Sets the faces' dielectrics, and the diagonal to k alone. Call add_faces_to_diagonal() next.
 /// @param stern_k k of points that ions can reach: h^2 kappa_bar^2
+/// @param shape   the solute's, made where it is null: several grids of the same atoms need it once; null: not kept
 void fill_operator(const std::vector<PbAtom>& atoms, const CubicLattice& lattice,
-                   const PoissonBoltzmannOptions& options, float stern_k, GridOperator& on_grid);
+                   const PoissonBoltzmannOptions& options, float stern_k, GridOperator& on_grid,
+                   std::shared_ptr<const SoluteShape>* shape = nullptr);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -328,7 +328,7 @@ std::vector<std::vector<double>> pb_contributions(const MapGrid& map, const std:
     };
   };
   MapGrid around;
-  around.lattice = twice_as_wide(map.lattice);
+  around.lattice = wider_lattice(map.lattice, sorted_atoms(origin.positions, origin.radii, origin.charges));
   set_index_transform(around.lattice, {}, "the coarse grid", around.to_index);
   std::vector<WeightedPlaces> borders;
   {
@@ -341,7 +341,7 @@ std::vector<std::vector<double>> pb_contributions(const MapGrid& map, const std:
     }
   }
   if (has_wider) {
-    TransposedProblem problem(origin, atoms, around.lattice, twice_as_wide(lattice, around.lattice), nullptr);
+    TransposedProblem problem(origin, atoms, around.lattice, cubic_lattice(around.lattice), nullptr);
     for (std::size_t r = 0; r < readings.size(); ++r) {
       problem.add_inner(spread_linearly(around, borders[r]), readings[r].share_left, step_of(readings.size() + r),
                         result[r]);

@@ -51,8 +51,10 @@ std::vector<PbAtom> sorted_atoms(const std::vector<Vec3d>& positions, const std:
 }
 
 void fill_pb_operator(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, const PbConstants& constants,
-                      const PoissonBoltzmannOptions& options, GridOperator& on_grid) {
-  fill_operator(with_radius(atoms), lattice, options, usual_coefficients(lattice, constants, options).ions, on_grid);
+                      const PoissonBoltzmannOptions& options, GridOperator& on_grid,
+                      std::shared_ptr<const SoluteShape>* shape) {
+  fill_operator(with_radius(atoms), lattice, options, usual_coefficients(lattice, constants, options).ions, on_grid,
+                shape);
 }
 
 UsualCoefficients usual_coefficients(const CubicLattice& lattice, const PbConstants& constants,
@@ -64,18 +66,35 @@ UsualCoefficients usual_coefficients(const CubicLattice& lattice, const PbConsta
           static_cast<float>(h * h * constants.kappa_bar_2)};
 }
 
-Lattice twice_as_wide(Lattice lattice) {
+Lattice wider_lattice(const Lattice& lattice, const std::vector<PbAtom>& atoms) {
+  // At 20 A beyond the atoms a border of Debye-Hueckel values leaves 0.06 % at the surface of T4 lysozyme; at 12 A 0.8
+  // %.
+  constexpr double kBeyondAtoms_A = 20;
+  constexpr int kMultiple = 8;  // halved three times without a remainder
+  const double own = lattice.step[0].x, spacing = 2 * own;
+  Lattice wide;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    lattice.origin += (-0.5 * (lattice.size[axis] - 1)) * lattice.step[axis];
-    lattice.step[axis] = 2.0 * lattice.step[axis];
+    const int a = static_cast<int>(axis);
+    double low = lattice.origin[a] - spacing, high = lattice.origin[a] + own * (lattice.size[axis] - 1) + spacing;
+    for (const PbAtom& atom : atoms) {
+      const double reach = static_cast<double>(atom.radius) + kBeyondAtoms_A;
+      low = std::min(low, atom.position[a] - reach);
+      high = std::max(high, atom.position[a] + reach);
+    }
+    const double first = std::floor(low / spacing);
+    const int n_steps = static_cast<int>(std::ceil((high / spacing - first) / kMultiple)) * kMultiple;
+    wide.origin[a] = spacing * first;
+    wide.size[axis] = n_steps + 1;
+    wide.step[axis][a] = spacing;
   }
-  return lattice;
+  return wide;
 }
 
-CubicLattice twice_as_wide(const CubicLattice& lattice, const Lattice& wide) {
-  CubicLattice result = lattice;
-  result.origin = static_cast<Vec3f>(wide.origin);
-  result.spacing *= 2;
+CubicLattice cubic_lattice(const Lattice& lattice) {
+  CubicLattice result{};
+  result.origin = static_cast<Vec3f>(lattice.origin);
+  result.spacing = static_cast<float>(lattice.step[0].x);
+  for (std::size_t axis = 0; axis < 3; ++axis) result.size[axis] = lattice.size[axis];
   return result;
 }
 

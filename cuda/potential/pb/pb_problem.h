@@ -1,6 +1,7 @@
 // pb_problem.h: what the Poisson-Boltzmann potential and its transpose set up alike.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "cuda/potential/pb/multigrid.h"
@@ -12,6 +13,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 
 struct DebyeHueckel;
+class SoluteShape;
 struct SolverReport;
 
 /// The equation's constants; see docs/potentials.md.
@@ -33,8 +35,10 @@ std::vector<PbAtom> sorted_atoms(const std::vector<Vec3d>& positions, const std:
                                  const std::vector<float>& charges);
 
 /// The coefficients of the equation on a grid; its diagonal holds the ions' part alone.
+/// @param shape as fill_operator()'s
 void fill_pb_operator(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, const PbConstants& constants,
-                      const PoissonBoltzmannOptions& options, GridOperator& on_grid);
+                      const PoissonBoltzmannOptions& options, GridOperator& on_grid,
+                      std::shared_ptr<const SoluteShape>* shape = nullptr);
 
 /// The dielectrics and the k that most points have; see fill_pb_operator().
 UsualCoefficients usual_coefficients(const CubicLattice& lattice, const PbConstants& constants,
@@ -45,9 +49,11 @@ inline double charge_scale(const CubicLattice& lattice, double coulomb) {
   return 4 * kPi * coulomb / static_cast<double>(lattice.spacing);
 }
 
-/// The same centre and number of points, twice the spacing.
-Lattice twice_as_wide(Lattice lattice);
-CubicLattice twice_as_wide(const CubicLattice& lattice, const Lattice& wide);
+/// The grid whose potential a smaller one's border holds (FarBoundary::kFocus): twice the spacing, far beyond the atoms
+/// and the other grid. Its points are multiples of its spacing, so that atoms at the same position in two molecules
+/// have the same place between them.
+Lattice wider_lattice(const Lattice& lattice, const std::vector<PbAtom>& atoms);
+CubicLattice cubic_lattice(const Lattice& lattice);
 
 /// @throws ConvergenceError unless the solver converged
 void require_converged(const PoissonBoltzmannOptions& options, const SolverReport& solved, int newton_steps);

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "cuda/potential/debye_hueckel.h"
 #include "cuda/potential/map_origin.h"
 #include "cuda/potential/pb/conjugate_gradients.h"
+#include "cuda/potential/pb/dielectric_map.h"
 #include "cuda/potential/pb/newton.h"
 #include "cuda/potential/pb/pb_checks.h"
 #include "cuda/potential/pb/pb_problem.h"
@@ -33,22 +35,35 @@ SortedCharges<double> charges_on_grid(const std::vector<PbAtom>& atoms, const Cu
 }
 
 /// Sets the border of phi to trilinear samples of a wider map.
-void set_border_from(const MapGrid& around, const CubicLattice& lattice, Buffer<float>& phi) {
-  MapGrid in_its_frame;
-  in_its_frame.lattice = around.lattice;
-  in_its_frame.values = around.values;
-  set_index_transform(around.lattice, {}, "the coarse grid", in_its_frame.to_index);
-  const auto samples = resample(in_its_frame, host_lattice(lattice));
-  const float* const from = raw(samples->values);
-  float* const to = raw(phi);
+void set_border_from(const MapGrid& around, const Lattice& lattice, Buffer<float>& phi) {
   const int nx = lattice.size[0], ny = lattice.size[1], nz = lattice.size[2];
-  for_each_index(phi.size(), [=] ESPDIFF_HD(std::size_t p) {
-    const int i = static_cast<int>(p % static_cast<std::size_t>(nx)),
-              j = static_cast<int>(p / static_cast<std::size_t>(nx) % static_cast<std::size_t>(ny)),
-              k = static_cast<int>(p / (static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny)));
-    const bool border = i == 0 || j == 0 || k == 0 || i == nx - 1 || j == ny - 1 || k == nz - 1;
-    if (border) to[p] = from[p];
-  });
+  std::vector<std::size_t> border;
+  std::vector<Vec3d> places;  // in the wider map's lattice
+  const auto add = [&](int i, int j, int k) {
+    border.push_back(static_cast<std::size_t>(i) +
+                     static_cast<std::size_t>(nx) *
+                         (static_cast<std::size_t>(j) + static_cast<std::size_t>(ny) * static_cast<std::size_t>(k)));
+    const Vec3d at = lattice.origin +
+                     lattice.step[0].x * Vec3d{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+    Vec3d place;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double* const row = around.to_index + std::ptrdiff_t{4} * axis;
+      place[axis] = row[0] * at.x + row[1] * at.y + row[2] * at.z + row[3];
+    }
+    places.push_back(place);
+  };
+  for (int k = 0; k < nz; ++k) {
+    for (int j = 0; j < ny; ++j) {
+      const bool whole_row = j == 0 || k == 0 || j == ny - 1 || k == nz - 1;
+      for (int i = 0; i < nx; i += whole_row ? 1 : nx - 1) add(i, j, k);
+    }
+  }
+  const Buffer<std::size_t> points = to_device(border);
+  const Buffer<float> values = to_device(values_at(around, places));
+  const std::size_t* const point = raw(points);
+  const float* const from = raw(values);
+  float* const to = raw(phi);
+  for_each_index(points.size(), [=] ESPDIFF_HD(std::size_t n) { to[point[n]] = from[n]; });
 }
 
 /// phi = an earlier potential; zero outside it.
@@ -80,15 +95,23 @@ struct Problem {
   const PoissonBoltzmannOptions& options;
   PbConstants constants;
   const Progress& progress;
+  std::shared_ptr<const SoluteShape>* shape;  ///< for all grids
+};
+
+/// Parts of the whole between which a grid's solution reports progress.
+struct Stretch {
+  double first, last;
+  double at(double part) const { return first + (last - first) * part; }
 };
 
 /// Solves for phi, whose border is set, and fills the report.
-void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& phi, PoissonBoltzmannReport& report,
-           std::shared_ptr<const PackedOperator>* kept = nullptr) {
+void solve(const Problem& problem, const CubicLattice& lattice, const Stretch& stretch, Buffer<float>& phi,
+           PoissonBoltzmannReport& report, std::shared_ptr<const PackedOperator>* kept = nullptr) {
   const PoissonBoltzmannOptions& options = problem.options;
   GridOperator on_grid;
-  fill_pb_operator(problem.atoms, lattice, problem.constants, options, on_grid);
-  problem.progress.report("potential", 0.2);
+  fill_pb_operator(problem.atoms, lattice, problem.constants, options, on_grid, problem.shape);
+  if (stretch.last == 1) problem.shape->reset();  // no grid follows
+  problem.progress.report("potential", stretch.at(0.1));
   const SortedCharges<double> charges = charges_on_grid(problem.atoms, lattice, problem.constants.coulomb);
   const RightHandSide b = [&](Buffer<float>& values) { spread_rounded(charges, raw(values)); };
   SolverOptions solver;
@@ -101,7 +124,7 @@ void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& p
   };
   const auto step = [&](double error) {
     const double part = std::log(error) / std::log(solver.tolerance);
-    problem.progress.report("potential", 0.2 + 0.8 * std::min(1.0, std::max(0.0, part)));
+    problem.progress.report("potential", stretch.at(0.1 + 0.9 * std::min(1.0, std::max(0.0, part))));
   };
   SolverReport solved;
   if (options.nonlinear && options.ionic_strength > 0) {
@@ -130,6 +153,8 @@ void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& p
   require_converged(options, solved, report.newton_steps);
 }
 
+constexpr Stretch kOfBorder{0.0, 0.25}, kOfMap{0.25, 1.0};
+
 void set_border(const Problem& problem, const Lattice& on_lattice, const CubicLattice& lattice, Buffer<float>& phi) {
   const DebyeHueckel law = border_law(problem.constants, problem.options);
   if (problem.options.far_boundary == FarBoundary::kDebyeHueckel) {
@@ -137,13 +162,14 @@ void set_border(const Problem& problem, const Lattice& on_lattice, const CubicLa
     return;
   }
   MapGrid around;
-  around.lattice = twice_as_wide(on_lattice);
-  const CubicLattice wide = twice_as_wide(lattice, around.lattice);
-  around.values.assign(lattice.n_points(), 0.0F);
+  around.lattice = wider_lattice(on_lattice, problem.atoms);
+  set_index_transform(around.lattice, {}, "the wider grid", around.to_index);
+  const CubicLattice wide = cubic_lattice(around.lattice);
+  around.values.assign(wide.n_points(), 0.0F);
   set_debye_hueckel_border(problem.atoms, wide, law, around.values);
   PoissonBoltzmannReport ignored;
-  solve(problem, wide, around.values, ignored);
-  set_border_from(around, lattice, phi);
+  solve(problem, wide, kOfBorder, around.values, ignored);
+  set_border_from(around, on_lattice, phi);
 }
 
 }  // namespace
@@ -157,7 +183,8 @@ std::shared_ptr<MapGrid> poisson_boltzmann(const std::vector<Vec3d>& positions, 
   check_pb_options(options);
   const CubicLattice lattice = checked_pb_lattice(on_lattice, positions, options);
   const std::vector<PbAtom> atoms = sorted_atoms(positions, radii, charges);
-  const Problem problem{atoms, options, pb_constants(options), progress};
+  std::shared_ptr<const SoluteShape> shape;
+  const Problem problem{atoms, options, pb_constants(options), progress, &shape};
   auto map = std::make_shared<MapGrid>();
   map->lattice = on_lattice;
   map->unit = PotentialUnit::kKtPerE;
@@ -166,7 +193,7 @@ std::shared_ptr<MapGrid> poisson_boltzmann(const std::vector<Vec3d>& positions, 
   progress.report("potential", 0.0);
   if (start != nullptr && is_near(*start, positions)) start_from(*start, on_lattice, map->values);
   set_border(problem, on_lattice, lattice, map->values);
-  progress.report("potential", 0.1);
+  progress.report("potential", kOfMap.first);
   PoissonBoltzmannReport told;
   told.bytes_per_point = pb_bytes_per_point(options);
   told.debye_length_A = 1 / problem.constants.kappa;
@@ -176,7 +203,7 @@ std::shared_ptr<MapGrid> poisson_boltzmann(const std::vector<Vec3d>& positions, 
   }
   auto origin = std::make_shared<MapOrigin>();
   const bool keeps = options.keep_operator && !(options.nonlinear && options.ionic_strength > 0);
-  solve(problem, lattice, map->values, told, keeps ? &origin->pb_operator : nullptr);
+  solve(problem, lattice, kOfMap, map->values, told, keeps ? &origin->pb_operator : nullptr);
   origin->method = PotentialMethod::kPoissonBoltzmann;
   origin->positions = positions;
   origin->to_map = to_map;

@@ -194,6 +194,38 @@ TEST_CASE("the error at the surface is below the one that is reported, and that 
   }
 }
 
+TEST_CASE(
+    "6 A of solvent and a wider grid around them are nearer to 24 A than 12 A are, next to the atoms and at 3 A") {
+  const Molecule m = small_protein();
+  const Lattice lattice = pb_lattice(m, 0.7, 6);
+  PoissonBoltzmannOptions by_sum, by_focus;
+  by_focus.far_boundary = espdiff::FarBoundary::kFocus;
+  for (const auto& engine : fast_back_ends()) {
+    const auto on_lattice = [&](double padding, const PoissonBoltzmannOptions& options) {
+      const Lattice own = pb_lattice(m, 0.7, padding);
+      return engine->download(engine->resample(pb_on_device(*engine, m, own, options), lattice));
+    };
+    const Grid wide = on_lattice(24, by_sum), usual = on_lattice(12, by_sum), focused = on_lattice(6, by_focus);
+    for (const double distance : {0.5, 3.0}) {
+      std::vector<float> of_wide, of_usual, of_focused;
+      for (std::size_t p = 0; p < wide.values.size(); p += 3) {
+        double nearest = 1e9;
+        for (std::size_t i = 0; i < m.size(); ++i)
+          nearest = std::min(nearest, norm(point_of(lattice, p) - m.positions[i]) - static_cast<double>(m.radii[i]));
+        if (std::fabs(nearest - distance) > 0.3) continue;
+        of_wide.push_back(wide.values[p]);
+        of_usual.push_back(usual.values[p]);
+        of_focused.push_back(focused.values[p]);
+      }
+      const double error = deviation(of_focused, of_wide).of_rms, before = deviation(of_usual, of_wide).of_rms;
+      MESSAGE(distance, " A outside: ", 100 * error, " % of the rms by 6 A and a wider grid, ", 100 * before,
+              " % by 12 A alone");
+      CHECK(error < (distance < 1 ? 0.0015 : 0.003));
+      CHECK(error < 0.5 * before);
+    }
+  }
+}
+
 TEST_CASE("without a boundary the residual counts") {
   const Molecule ion = molecule_of({{0, 0, 0}}, {2.0F}, {1.0F});
   PoissonBoltzmannOptions options;
