@@ -16,11 +16,6 @@
 namespace espdiff {
 namespace {
 
-FrameReader& the_frame_reader() {
-  static FrameReader reader;
-  return reader;
-}
-
 bool is_psf_name(const std::string& path) {
   const std::string ending = ".psf";
   return path.size() > ending.size() && lower_case(path.substr(path.size() - ending.size())) == ending;
@@ -35,10 +30,6 @@ std::string without_plugins(const std::string& path) {
 }
 
 }  // namespace
-
-const FrameReader* frame_reader() { return the_frame_reader().open ? &the_frame_reader() : nullptr; }
-const std::string& frame_reader_remedy() { return the_frame_reader().remedy; }
-void set_frame_reader(FrameReader reader) { the_frame_reader() = std::move(reader); }
 
 std::unique_ptr<StructureFile> open_structure(const std::string& path) { return std::make_unique<StructureFile>(path); }
 

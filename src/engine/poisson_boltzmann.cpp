@@ -1,11 +1,12 @@
-// poisson_boltzmann_lattice.cpp: chooses the grid of a Poisson-Boltzmann potential.
+// poisson_boltzmann.cpp: chooses the grid of a Poisson-Boltzmann potential.
+#include "engine/poisson_boltzmann.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "base/error.h"
 #include "base/formatted.h"
-#include "engine/poisson_boltzmann.h"
 
 namespace espdiff {
 namespace {
