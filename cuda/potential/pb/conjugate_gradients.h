@@ -4,7 +4,7 @@
 #include <functional>
 #include <utility>
 
-#include "cuda/potential/pb/multigrid.h"
+#include "cuda/potential/pb/multigrid/multigrid.h"
 #include "cuda/potential/pb/surface_error.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "cuda/potential/pb/multigrid.h"
+#include "cuda/potential/pb/multigrid/multigrid.h"
 #include "cuda/potential/pb_atoms.h"
 #include "cuda/potential/probe_positions.h"
 #include "cuda/surface/density/grid.h"

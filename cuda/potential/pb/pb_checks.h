@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cuda/potential/pb/multigrid.h"
+#include "cuda/potential/pb/multigrid/multigrid.h"
 #include "cuda/surface/density/grid.h"
 #include "engine/poisson_boltzmann.h"
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "cuda/potential/pb/multigrid.h"
-#include "cuda/potential/pb/packed_operator.h"
+#include "cuda/potential/pb/multigrid/multigrid.h"
+#include "cuda/potential/pb/multigrid/packed_operator.h"
 #include "cuda/potential/pb_atoms.h"
 #include "cuda/surface/density/grid.h"
 #include "engine/poisson_boltzmann.h"

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "cuda/potential/pb/multigrid.h"
+#include "cuda/potential/pb/multigrid/multigrid.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cuda/potential/pb/conjugate_gradients.h"
-#include "cuda/potential/pb/multigrid.h"
-#include "cuda/potential/pb/packed_operator.h"
+#include "cuda/potential/pb/multigrid/multigrid.h"
+#include "cuda/potential/pb/multigrid/packed_operator.h"
 #include "support/random.h"
 
 using namespace espdiff_test;

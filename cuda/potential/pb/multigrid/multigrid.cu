@@ -1,10 +1,10 @@
 // multigrid.cu: kernels of the operator and of Gauss-Seidel sweeps; the V-cycle.
-#include "cuda/potential/pb/multigrid.h"
+#include "cuda/potential/pb/multigrid/multigrid.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "cuda/potential/pb/plane_sweeps.h"
+#include "cuda/potential/pb/multigrid/plane_sweeps.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

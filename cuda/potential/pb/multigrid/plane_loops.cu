@@ -1,5 +1,5 @@
 // plane_loops.cu: the loops over the rows of a plane.
-#include "cuda/potential/pb/plane_loops.h"
+#include "cuda/potential/pb/multigrid/plane_loops.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

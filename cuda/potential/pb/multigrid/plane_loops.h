@@ -5,7 +5,7 @@
 
 #if !defined(ESPDIFF_BACKEND_CUDA)
 
-#include "cuda/potential/pb/operator_rows.h"
+#include "cuda/potential/pb/multigrid/operator_rows.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "cuda/potential/pb/multigrid.h"
+#include "cuda/potential/pb/multigrid/multigrid.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

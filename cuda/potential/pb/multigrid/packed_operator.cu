@@ -1,5 +1,5 @@
 // packed_operator.cu: packs the coefficients of an operator, and unpacks them, row by row.
-#include "cuda/potential/pb/packed_operator.h"
+#include "cuda/potential/pb/multigrid/packed_operator.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

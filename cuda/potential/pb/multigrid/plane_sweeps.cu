@@ -1,11 +1,11 @@
 // plane_sweeps.cu: passes in which the loops over planes follow each other.
-#include "cuda/potential/pb/plane_sweeps.h"
+#include "cuda/potential/pb/multigrid/plane_sweeps.h"
 
 #include <omp.h>
 
 #include <algorithm>
 
-#include "cuda/potential/pb/plane_loops.h"
+#include "cuda/potential/pb/multigrid/plane_loops.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

@@ -1,5 +1,5 @@
 // grid_transfer.cu: restriction, interpolation, and the coarse grid's coefficients.
-#include "cuda/potential/pb/multigrid.h"
+#include "cuda/potential/pb/multigrid/multigrid.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

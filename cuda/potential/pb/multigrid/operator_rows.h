@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "cuda/potential/pb/packed_operator.h"
+#include "cuda/potential/pb/multigrid/packed_operator.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -1,5 +1,5 @@
 // operator_rows.cu: unpacks a plane of coefficients.
-#include "cuda/potential/pb/operator_rows.h"
+#include "cuda/potential/pb/multigrid/operator_rows.h"
 
 #include <algorithm>
 
