@@ -260,7 +260,7 @@ TEST_CASE("made states: near the exact pairs, and the files say how near") {
 
 TEST_CASE("interrupted, resumed and in parts: the same bytes") {
   const ScratchFolder folder;
-  const auto engine = cpu_engine();
+  const auto engine = cpu_engine(1);
   const std::vector<Variant> variants = made_variants(4);
   const TemplateRequest request = request_of("v1", 3);
   const auto compute = [&](const MatrixRun& run, const espdiff::Progress& progress) {
