@@ -12,6 +12,7 @@
 #include <mutex>
 #include <thread>
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
@@ -20,6 +21,18 @@ namespace espdiff {
 namespace {
 
 constexpr std::size_t kNoItem = static_cast<std::size_t>(-1);
+
+using Failed = std::function<void(std::size_t, const Error&)>;
+
+struct Range {
+  std::size_t first = 0, end = 0;
+};
+
+/// What one thread computes with.
+struct Means {
+  std::unique_ptr<Engine> engine{};
+  ComputeItem compute{};  // destroyed before the engine
+};
 
 /// What one thread is at.
 struct Place {
@@ -34,8 +47,15 @@ struct Place {
 class Team {
  public:
   Team(const Engine& engine, const Workers& workers, const ItemGroups& groups,
-       const std::function<ComputeItem(Engine&)>& begin)
-      : groups_(groups), begin_(begin), is_done_(groups.n_items, false) {
+       const std::function<ComputeItem(Engine&)>& begin, const Failed& failed)
+      : engine_(engine),
+        workers_(workers),
+        groups_(groups),
+        begin_(begin),
+        failed_(failed),
+        n_staying_(workers.n),
+        n_alive_(workers.n),
+        is_done_(groups.n_items, false) {
     for (int w = 0; w < workers.n; ++w) {
       const auto number = static_cast<std::size_t>(w);
       places_.push_back(std::make_unique<Place>([this, number](const std::string& stage, double) {
@@ -43,9 +63,7 @@ class Team {
         places_[number]->stage = stage;
       }));
     }
-    for (const auto& place : places_)
-      threads_.emplace_back(
-          [this, &engine, each = workers.n_threads_each, at = place.get()] { run(engine, each, *at); });
+    for (const auto& place : places_) threads_.emplace_back([this, at = place.get()] { run(*at); });
   }
   ~Team() { stop(); }
   Team(const Team&) = delete;
@@ -75,6 +93,7 @@ class Team {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       next_group_ = groups_.ends.size();
+      returned_.clear();
     }
     for (const auto& place : places_) place->progress.request_cancel();
     for (std::thread& thread : threads_) {
@@ -86,37 +105,88 @@ class Team {
   bool is_done(std::size_t item) const { return is_done_[item]; }
 
  private:
-  void run(const Engine& engine, int n_threads_each, Place& place) {
+  void run(Place& place) {
     const CancelScope scope(place.progress);
-    omp_set_num_threads(n_threads_each);  // for the loops outside the engine
-    std::unique_ptr<Engine> own;
-    ComputeItem compute;
-    std::size_t first = 0, end = 0;
-    while (take_group(first, end)) {
-      for (std::size_t item = first; item < end && begin_item(place, item); ++item) {
-        try {
-          if (own == nullptr) {
-            own = engine.beside(n_threads_each);
-            compute = begin_(*own);
-          }
-          compute(item, place.progress);
-          end_item(place, nullptr);
-        } catch (const Cancelled&) {
-          end_item(place, nullptr, false);
-          return;
-        } catch (...) {
-          end_item(place, std::current_exception());
-        }
+    omp_set_num_threads(workers_.n_threads_each);  // for the loops outside the engine
+    {
+      Means means;
+      Range range;
+      while (take(range) && compute(range, means, place)) {
       }
     }
+    const std::lock_guard<std::mutex> lock(mutex_);
+    --n_alive_;
+    ended_.notify_all();
   }
 
-  bool take_group(std::size_t& first, std::size_t& end) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (next_group_ >= groups_.ends.size()) return false;
-    first = next_group_ == 0 ? 0 : groups_.ends[next_group_ - 1];
-    end = groups_.ends[next_group_++];
+  /// @returns whether the thread goes on
+  bool compute(Range range, Means& means, Place& place) {
+    for (; range.first < range.end && begin_item(place, range.first); ++range.first) {
+      try {
+        if (!fits(range.first, means, place, false)) {
+          means = {};
+          if (leaves(range, place)) return false;
+          wait_until_alone();
+          fits(range.first, means, place, true);
+        }
+        end_item(place, nullptr);
+      } catch (const Cancelled&) {
+        end_item(place, nullptr, false);
+        return false;
+      } catch (...) {
+        end_item(place, std::current_exception());
+      }
+    }
     return true;
+  }
+
+  /// Computes an item. @returns whether there was memory for it; where it is computed alone, a lack is its error
+  bool fits(std::size_t item, Means& means, Place& place, bool is_alone) {
+    try {
+      if (means.engine == nullptr) {
+        means.engine = engine_.beside(workers_.n_threads_each);
+        means.compute = begin_(*means.engine);
+      }
+      means.compute(item, place.progress);
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error& error) {
+      if (error.error_class() == ErrorClass::kMemory && !is_alone) return false;
+      failed_(item, error);
+    }
+    return true;
+  }
+
+  bool take(Range& range) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!returned_.empty()) {
+      range = returned_.back();
+      returned_.pop_back();
+      return true;
+    }
+    if (next_group_ >= groups_.ends.size()) {
+      --n_staying_;
+      return false;
+    }
+    range = {next_group_ == 0 ? 0 : groups_.ends[next_group_ - 1], groups_.ends[next_group_]};
+    ++next_group_;
+    return true;
+  }
+
+  /// Gives items back for the others, unless there are none. @returns whether there are
+  bool leaves(const Range& range, Place& place) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (n_staying_ == 1) return false;
+    --n_staying_;
+    returned_.push_back(range);
+    place.item = kNoItem;
+    return true;
+  }
+
+  /// Until the memory of all threads that leave is free.
+  void wait_until_alone() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    ended_.wait(lock, [&] { return n_alive_ == 1; });
   }
 
   /// @returns whether it is to be computed: not behind one that failed
@@ -139,11 +209,16 @@ class Team {
     news_.notify_one();
   }
 
+  const Engine& engine_;
+  const Workers& workers_;
   const ItemGroups& groups_;
   const std::function<ComputeItem(Engine&)>& begin_;
+  const Failed& failed_;
   std::mutex mutex_;
-  std::condition_variable news_;
+  std::condition_variable news_, ended_;
   std::size_t next_group_ = 0;
+  std::vector<Range> returned_;  ///< by threads that left
+  int n_staying_, n_alive_;      ///< threads that will take items again; threads that hold memory
   std::vector<bool> is_done_;
   std::size_t first_failed_ = kNoItem;
   std::exception_ptr error_;
@@ -152,14 +227,20 @@ class Team {
 };
 
 void compute_one_by_one(Engine& engine, std::size_t n_items, const std::function<ComputeItem(Engine&)>& begin,
-                        const std::function<void(std::size_t)>& done, const Progress& progress) {
+                        const Failed& failed, const std::function<void(std::size_t)>& done, const Progress& progress) {
   const ComputeItem compute = begin(engine);
   for (std::size_t item = 0; item < n_items; ++item) {
     // Each item's stages start at 0 again; the whole run's bar advances by items only.
     const Progress stages([&](const std::string& stage, double) {
       progress.report(stage, static_cast<double>(item) / static_cast<double>(n_items));
     });
-    compute(item, stages);
+    try {
+      compute(item, stages);
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error& error) {
+      failed(item, error);
+    }
     done(item);
   }
 }
@@ -180,14 +261,15 @@ Workers workers_for(const Engine& engine, std::size_t n_items, double bytes_each
 }
 
 void compute_items(Engine& engine, const Workers& workers, const ItemGroups& groups,
-                   const std::function<ComputeItem(Engine&)>& begin, const std::function<void(std::size_t)>& done,
-                   const Progress& progress) {
+                   const std::function<ComputeItem(Engine&)>& begin,
+                   const std::function<void(std::size_t, const Error&)>& failed,
+                   const std::function<void(std::size_t)>& done, const Progress& progress) {
   if (workers.n <= 1) {
-    compute_one_by_one(engine, groups.n_items, begin, done, progress);
+    compute_one_by_one(engine, groups.n_items, begin, failed, done, progress);
     return;
   }
   std::size_t next = 0;
-  Team team(engine, workers, groups, begin);
+  Team team(engine, workers, groups, begin, failed);
   try {
     while (next < groups.n_items) {
       const bool is_done = team.wait_for(next);

@@ -32,15 +32,19 @@ struct ItemGroups {
 /// Computes one item; one thread's, so it may keep what its items share.
 using ComputeItem = std::function<void(std::size_t item, const Progress& progress)>;
 
-/// Computes all items. With one worker they are computed on this thread, by `engine`.
+/// Computes all items. With one worker they are computed on this thread, by `engine`. A thread that runs out of memory
+/// beside others leaves its items to them: an item has too little only if it has when it is alone.
 /// @param begin gives each thread its function; called on that thread
+/// @param failed is told the error of an item, on the item's thread: where it returns, the item is done, with what the
+///        caller makes of it; what it throws ends the run. Not for Cancelled.
 /// @param done  called on this thread for each item, in ascending order. After a request to cancel it is called for
 ///        all items that were computed before it.
 /// @param progress gets the stage of the first item that is not done, and the fraction of items done; on this thread
-/// @throws what the first of the items that fail throws, after done() of all items before it; what done() throws;
-///         Cancelled
+/// @throws what `failed` throws for the first of the items that fail, after done() of all items before it; what done()
+///         throws; Cancelled
 void compute_items(Engine& engine, const Workers& workers, const ItemGroups& groups,
-                   const std::function<ComputeItem(Engine&)>& begin, const std::function<void(std::size_t)>& done,
-                   const Progress& progress);
+                   const std::function<ComputeItem(Engine&)>& begin,
+                   const std::function<void(std::size_t, const Error&)>& failed,
+                   const std::function<void(std::size_t)>& done, const Progress& progress);
 
 }  // namespace espdiff

@@ -183,26 +183,25 @@ void compute_pairs(Engine& engine, const std::vector<Variant>& variants, const C
   for (const Variant& variant : variants) n_atoms = std::max(n_atoms, variant.molecule.size());
   const Workers workers = workers_for(engine, pairs.size(), kBytesOfAtom * static_cast<double>(n_atoms));
   std::vector<MatrixCell> cells(pairs.size());
+  const auto name_of = [&](std::size_t p) {
+    return variants.at(pairs[p].first).label + " to " + variants.at(pairs[p].second).label;
+  };
   const auto begin = [&](Engine& of_thread) -> ComputeItem {
     auto prepared = std::make_shared<std::optional<SourceOfPairs>>();
     return [&, prepared, number = variants.size()](std::size_t p, const Progress& stages) mutable {
       const Variant &source = variants.at(pairs[p].first), &target = variants.at(pairs[p].second);
-      const std::string name = source.label + " to " + target.label;
-      const Progress named([&](const std::string& stage, double) { stages.report(name + ": " + stage, 0); });
-      try {
-        if (number != pairs[p].first) prepared->emplace(of_thread, source, options);
-        number = pairs[p].first;
-        cells[p] = cell_of(pairs[p], (*prepared)->compare(target, named));
-      } catch (const Cancelled&) {
-        throw;
-      } catch (const Error& error) {
-        if (!skip_errors) throw Error(error.error_class(), name + ": " + error.message());
-        cells[p] = failed_cell(pairs[p], error.what(), compared);
-      }
+      const Progress named([&](const std::string& stage, double) { stages.report(name_of(p) + ": " + stage, 0); });
+      if (number != pairs[p].first) prepared->emplace(of_thread, source, options);
+      number = pairs[p].first;
+      cells[p] = cell_of(pairs[p], (*prepared)->compare(target, named));
     };
   };
+  const auto failed = [&](std::size_t p, const Error& error) {
+    if (!skip_errors) throw Error(error.error_class(), name_of(p) + ": " + error.message());
+    cells[p] = failed_cell(pairs[p], error.what(), compared);
+  };
   const auto hand_over = [&](std::size_t p) { done(std::exchange(cells[p], {})); };
-  compute_items(engine, workers, groups_of(pairs, workers.n), begin, hand_over, progress);
+  compute_items(engine, workers, groups_of(pairs, workers.n), begin, failed, hand_over, progress);
   progress.report("pairs", 1.0);
 }
 
