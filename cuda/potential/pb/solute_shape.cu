@@ -81,6 +81,23 @@ ESPDIFF_INLINE void visit_disc(const CubicLattice& lattice, int k, Vec3f centre,
   }
 }
 
+/// Calls each(i) for the points from i0 to before i1 of a row, in whole lanes: for their neighbours too, which each()
+/// must leave as they are, or give what all points may have.
+template <typename Each>
+ESPDIFF_INLINE void for_lanes(int i0, int i1, int n_in_row, Each each) {
+  constexpr int kLanes = 8;
+  const int width = (i1 - i0 + kLanes - 1) / kLanes * kLanes;
+  if (width > n_in_row) {
+    for (int i = i0; i < i1; ++i) each(i);
+    return;
+  }
+  const int first = std::min(i0, n_in_row - width);
+  for (int i = first; i < first + width; i += kLanes) {
+#pragma omp simd
+    for (int lane = 0; lane < kLanes; ++lane) each(i + lane);
+  }
+}
+
 struct PlaneFill {
   ShapeView shape;
   CubicLattice lattice;
@@ -92,6 +109,7 @@ struct PlaneFill {
 
 /// Depth of points in the enlarged spheres.
 ESPDIFF_INLINE void mark_spheres(const PlaneFill& in, int k) {
+  const CubicLattice lattice = in.lattice;  // a copy, which the rows' values cannot change
   const AtomCellsView& cells = in.shape.atoms.cells;
   const float z = in.lattice.coordinate(2, k);
   for (std::uint32_t a = 0; a < in.n_atoms; ++a) {
@@ -100,8 +118,9 @@ ESPDIFF_INLINE void mark_spheres(const PlaneFill& in, int k) {
     visit_disc(in.lattice, k, in.shape.atoms.centre(a), reach,
                [&](int j, int i0, int i1, float dy, float dz) ESPDIFF_INLINE_LAMBDA {
                  float* const row = in.depths + in.lattice.index(0, j, k);
-                 for (int i = i0; i < i1; ++i)
-                   row[i] = larger(row[i], radius - sqrtf(square_of(in.lattice.coordinate(0, i) - x, dy, dz)));
+                 for_lanes(i0, i1, lattice.size[0], [=](int i) ESPDIFF_INLINE_LAMBDA {
+                   row[i] = larger(row[i], radius - sqrtf(square_of(lattice.coordinate(0, i) - x, dy, dz)));
+                 });
                });
   }
 }
@@ -128,15 +147,17 @@ ESPDIFF_INLINE void reach_faces(const PlaneFill& in, int k) {
 /// Points that a probe covers while it touches two or more.
 ESPDIFF_INLINE void reach_arcs(const PlaneFill& in, int k) {
   const float probe = in.shape.probe, reach = in.shape.reach;
+  const CubicLattice lattice = in.lattice;
   for (std::uint32_t n = in.first_probe[k]; n < in.first_probe[k + 1]; ++n) {
     const std::uint32_t c = in.probes[n];
     const Vec3f centre{in.shape.probes.x[c], in.shape.probes.y[c], in.shape.probes.z[c]};
     visit_disc(in.lattice, k, centre, reach, [&](int j, int i0, int i1, float dy, float dz) ESPDIFF_INLINE_LAMBDA {
       float* const row = in.depths + in.lattice.index(0, j, k);
-      for (int i = i0; i < i1; ++i) {
-        const float d = sqrtf(square_of(in.lattice.coordinate(0, i) - centre.x, dy, dz));
-        row[i] = d < reach && row[i] > -probe ? smaller(row[i], d - probe) : row[i];
-      }
+      for_lanes(i0, i1, lattice.size[0], [=](int i) ESPDIFF_INLINE_LAMBDA {
+        const float d = sqrtf(square_of(lattice.coordinate(0, i) - centre.x, dy, dz)), before = row[i];
+        const bool covers = (d < reach) & (before > -probe);
+        row[i] = covers ? smaller(before, d - probe) : before;
+      });
     });
   }
 }
