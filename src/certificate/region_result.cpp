@@ -13,6 +13,7 @@
 #include "certificate/certificate.h"
 #include "certificate/place_patch.h"
 #include "certificate/result.h"
+#include "certificate/slip.h"
 #include "engine/engine.h"
 #include "mapping/build_surface.h"
 #include "mapping/mapping.h"
@@ -138,7 +139,8 @@ std::shared_ptr<CompareResult> part_result(Engine& engine, const SurfacePart& pa
   of_part.positions = whole.surface.positions;
   of_part.triangles = whole.surface.triangles;
   for (const float flag : excluded) of_part.unmatched.push_back(flag != 0 ? 1 : 0);
-  c.same_residue_area_fraction = same_residue_share(of_part, source_residue, mapped_residue, target_of);
+  c.same_residue_area_fraction =
+      same_residue_share(of_part, surface_areas(of_part), source_residue, mapped_residue, target_of);
   return result;
 }
 

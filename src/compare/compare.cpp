@@ -220,7 +220,7 @@ struct Series::Steps {
   /// Each residue's difference from its potentials on its own surfaces, and how the mapped differences agree.
   void check_against_own(const CompareInput& target, const GridPtr& target_map, const Mapping& mapping,
                          const Surface& target_surface, const std::vector<std::int32_t>& target_of,
-                         CompareResult& result) const {
+                         const SurfaceAreas& areas, CompareResult& result) const {
     if (target_map == nullptr || result.pairing.pairs.empty()) {
       for (ResidueRow& row : result.residues)
         row.own_difference = row.own_area_A2 = std::numeric_limits<double>::quiet_NaN();
@@ -234,11 +234,14 @@ struct Series::Steps {
     const std::vector<OwnPotential> own_on_target = own_on(target_surface, target_map, source_of);
     set_own_differences(result.residues, own, own_on_target, target_of);
     const std::vector<std::uint8_t> disagree = disagreeing_residues(result.residues, own);
-    mark_disagreeing(result.surface, disagree);
-    result.residues = residue_rows(s, result.residues.size(), true);
-    set_own_differences(result.residues, own, own_on_target, target_of);
+    const auto n_disagreeing = static_cast<std::size_t>(std::count(disagree.begin(), disagree.end(), 1));
+    if (n_disagreeing > 0) {
+      mark_disagreeing(result.surface, disagree);
+      result.residues = residue_rows(s, areas, result.residues.size(), true);
+      set_own_differences(result.residues, own, own_on_target, target_of);
+    }
     ResidueCheck check = check_residues(result.residues, own);
-    check.n_disagreeing = static_cast<std::size_t>(std::count(disagree.begin(), disagree.end(), 1));
+    check.n_disagreeing = n_disagreeing;
     bool applies = check.n_residues >= kLeastComparedResidues;
     constexpr double kSureCorrelation = 0.9;
     if (applies && !(check.correlation >= kSureCorrelation)) {
@@ -272,18 +275,19 @@ struct Series::Steps {
     const std::vector<std::int32_t> target_of = paired_residues(*source.molecule, *target.molecule, result.pairing);
     const std::vector<MeasuredPart> parts =
         measure_parts(engine, source, target, target_surface, isovalue, target_of, step);
-    result.uncovered =
-        uncovered_surface(engine.download(target_surface.mesh),
-                          engine.download(result.certificate.target_to_mapped.beyond), inverse(step.frame.from_target));
+    const std::vector<float> beyond = engine.download(result.certificate.target_to_mapped.beyond);
+    if (std::any_of(beyond.begin(), beyond.end(), [](float flag) { return flag != 0; }))
+      result.uncovered =
+          uncovered_surface(engine.download(target_surface.mesh), beyond, inverse(step.frame.from_target));
     std::vector<PotentialSamples> samples;
     if (target_map != nullptr) {
       samples = sample_potentials(engine, {source, source_map.map, surface.atoms},
                                   {target, target_map, target_surface.atoms}, options, unit, step);
       mark_without_potential(result.surface);
-      result.certificate.outside_maps = share_outside(result.surface, matched_areas(result.surface));
-      result.residues = residue_rows(result.surface, source.molecule->residues.size(), true);
+      result.certificate.outside_maps = share_outside(result.surface, matched_areas(result.surface, step.areas));
+      result.residues = residue_rows(result.surface, step.areas, source.molecule->residues.size(), true);
     }
-    check_against_own(target, target_map, step.mapping, target_surface, target_of, result);
+    check_against_own(target, target_map, step.mapping, target_surface, target_of, step.areas, result);
     if (target_map != nullptr) compare_potentials(engine, samples, parts, step);
     compare_fields(engine, fields,
                    {source_fields, *source.molecule, surface.atoms, step.frame.from_source, source_map.map},
@@ -292,11 +296,12 @@ struct Series::Steps {
     find_patches_of_fields(options, result);
     describe_chains(target, target_of, result);
     Certificate& certificate = result.certificate;
-    certificate.trusted = sum_trusted(result.surface, {}, certificate.unmatched_target);
-    certificate.turned = turned_area(result.surface, {}, *source.molecule);
-    certificate.untrusted_parts = untrusted_parts(result.surface, result.residues, *source.molecule);
+    certificate.trusted = sum_trusted(result.surface, step.areas, {}, certificate.unmatched_target);
+    certificate.turned = turned_area(result.surface, step.areas, {}, *source.molecule);
+    certificate.untrusted_parts = untrusted_parts(result.surface, step.areas, result.residues, *source.molecule);
     judge(result, *source.molecule, options.required_share);
-    for (const MeasuredPart& part : parts) finish_part(part, result, *source.molecule, options.required_share);
+    for (const MeasuredPart& part : parts)
+      finish_part(part, result, step.areas, *source.molecule, options.required_share);
     clock.lap("metrics");
     if (options.causes.empty()) return std::nullopt;
     return take_readings(engine, {source, source_map.map, surface.atoms}, {target, target_map, target_surface.atoms},
@@ -370,7 +375,7 @@ struct Series::Steps {
   MappedStep map(const CompareInput& target, const Surface& target_surface, const CommonFrame& frame,
                  CompareResult result, const LastStep* before, const std::string& stage, const Progress& progress,
                  StageClock& clock, double step_factor = 1) {
-    MappedStep step{frame, {}, {}, {}, {}, {}, std::move(result)};
+    MappedStep step{frame, {}, {}, {}, {}, {}, {}, std::move(result)};
     // deform needs no pairs; the morph says what it misses.
     if (options.method == Method::kMorph || !step.result.pairing.pairs.empty())
       step.paths = paths_to(*target.molecule, frame, step.result.pairing, progress);

@@ -20,6 +20,7 @@ struct MappedStep {
   Mapping mapping;
   MeshPtr moved;                 ///< the source's surface, moved by its rigid domains
   std::vector<bool> is_matched;  ///< [vertex] whether it lies in a matched triangle
+  SurfaceAreas areas;            ///< of the result's surface
   CompareResult result;
 };
 

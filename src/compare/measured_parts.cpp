@@ -63,8 +63,8 @@ std::vector<MeasuredPart> measure_parts(Engine& engine, const CompareInput& sour
   return parts;
 }
 
-void finish_part(const MeasuredPart& measured, const CompareResult& whole, const Molecule& source,
-                 double required_share) {
+void finish_part(const MeasuredPart& measured, const CompareResult& whole, const SurfaceAreas& areas,
+                 const Molecule& source, double required_share) {
   const SurfacePart& place = measured.place;
   CompareResult& part = *measured.result;
   for (const Warning& warning : whole.warnings) {
@@ -74,10 +74,10 @@ void finish_part(const MeasuredPart& measured, const CompareResult& whole, const
     if (place.source[row.residue] != 0) part.residues.push_back(row);
   }
   count_outside_maps(place, whole, part);
-  part.certificate.trusted = sum_trusted(whole.surface, place.outside, part.certificate.unmatched_target);
-  part.certificate.turned = turned_area(whole.surface, place.outside, source);
+  part.certificate.trusted = sum_trusted(whole.surface, areas, place.outside, part.certificate.unmatched_target);
+  part.certificate.turned = turned_area(whole.surface, areas, place.outside, source);
   if (judge_missing_part(part, measured.placement.get())) return;
-  part.certificate.untrusted_parts = untrusted_parts(whole.surface, part.residues, source);
+  part.certificate.untrusted_parts = untrusted_parts(whole.surface, areas, part.residues, source);
   judge(part, source, required_share);
   if (measured.placement != nullptr) judge_placement(part, *measured.placement);
 }

@@ -229,11 +229,11 @@ struct TemplateMapping::Parts {
 
   /// The slip of the mapping.
   void measure_slip(const Mapping& mapping, const Surface& target, const std::vector<MovingAtom>& paths,
-                    CompareResult& result) const {
+                    const SurfaceAreas& triangle_areas, CompareResult& result) const {
     if (paths.empty()) return;
     MappedSurface& s = result.surface;
     s.slip = engine.slip(mapping.source, mapping.mapped, target.mesh, paths);
-    const std::vector<double> areas = matched_areas(s);
+    const std::vector<double> areas = matched_areas(s, triangle_areas);
     for (std::size_t v = 0; v < areas.size(); ++v) {
       if (areas[v] <= 0) s.slip[v] = std::numeric_limits<float>::quiet_NaN();
     }
@@ -300,12 +300,14 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, const Progress& pr
   p.describe_mapped(mapping, target, common, result.surface);
   const std::vector<std::int32_t> target_of = paired_residues(*p.source.molecule, *frame.molecule, result.pairing);
   MappedSurface& s = result.surface;
-  result.certificate.same_residue_area_fraction = same_residue_share(s, s.residue, s.target_residue, target_of);
-  p.measure_slip(mapping, target, paths, result);
+  const SurfaceAreas triangle_areas = surface_areas(s);
+  result.certificate.same_residue_area_fraction =
+      same_residue_share(s, triangle_areas, s.residue, s.target_residue, target_of);
+  p.measure_slip(mapping, target, paths, triangle_areas, result);
   mark_turned(p.engine, *p.source.molecule, *frame.molecule, result.pairing, p.surface, mapping.source,
               common.from_source, s);
   s.why = why_of_mapping(s, target_of, KeptTurns::kAll);
-  result.certificate.trusted = sum_trusted(s, {}, result.certificate.unmatched_target);
+  result.certificate.trusted = sum_trusted(s, triangle_areas, {}, result.certificate.unmatched_target);
   out.trusted = trusted_vertices(s);
   out.trusted.resize(p.n_vertices);  // those that the morph added come after them
   clock.lap("certificate");
