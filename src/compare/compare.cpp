@@ -153,6 +153,13 @@ struct Series::Steps {
     return mapping;
   }
 
+  /// How far outside the surfaces potentials are read, or side chains may have other places.
+  double potential_reach_A() const {
+    constexpr double kSideChain_A = 7;  // from CB to the last hydrogen of arginine
+    const double read_A = *std::max_element(options.offsets_A.begin(), options.offsets_A.end());
+    return options.side_chains > 0 ? std::max(read_A, kSideChain_A) : read_A;
+  }
+
   /// The target's map, null where there is none; the source's too, unless it is there already.
   GridPtr make_maps(const CompareInput& target, const CommonFrame& frame, CompareResult& result,
                     const Progress& progress) {
@@ -160,8 +167,9 @@ struct Series::Steps {
     const PotentialUnit wanted = common_unit(source, target);
     const double temperature_K = options.temperature_K;
     const bool for_readings = !options.causes.empty();
+    const double reach_A = potential_reach_A();
     if (source_map.map == nullptr || wanted != unit) {
-      source_map = device_map(engine, source, inverse(frame.from_source), {nullptr, for_readings}, wanted,
+      source_map = device_map(engine, source, inverse(frame.from_source), {nullptr, for_readings, reach_A}, wanted,
                               temperature_K, progress);
       unit = wanted;
     }
@@ -170,8 +178,8 @@ struct Series::Steps {
     // An iteration may start from the source's potential, whatever steps were made before: the bits of a step do not
     // depend on them.
     const GridPtr before = source.make_map ? source_map.map : nullptr;
-    MadeMap made =
-        device_map(engine, target, inverse(frame.from_target), {before, for_readings}, wanted, temperature_K, progress);
+    MadeMap made = device_map(engine, target, inverse(frame.from_target), {before, for_readings, reach_A}, wanted,
+                              temperature_K, progress);
     if (target.make_map) result.target_recipe = std::make_shared<const MapRecipe>(std::move(made.recipe));
     target_charges = std::move(made.charges);
     return made.map;
