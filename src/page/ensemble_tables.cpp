@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/files/write_csv.h"
+#include "page/page_surface.h"
 
 namespace espdiff {
 namespace {
@@ -24,11 +25,6 @@ std::string with_unit(const std::string& number, const std::string& unit) {
 std::string percent(const TableJson& json, const char* name) {
   const auto found = json.find(name);
   return found == json.end() || !found->is_number() ? kMissing : csv_number(100 * found->get<double>(), 3) + " %";
-}
-
-std::string with_capital(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
-  return text;
 }
 
 void add_row(TableJson& rows, const std::string& label, const std::string& help, const std::string& value) {

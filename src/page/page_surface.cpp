@@ -2,7 +2,6 @@
 #include "page/page_surface.h"
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 #include <numeric>
 
@@ -31,6 +30,11 @@ std::vector<Vec3d> source_positions(const VtpContent& surface) {
 }
 
 }  // namespace
+
+std::string with_capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
 
 void require_three() {
   if (page_texts().count("three.min.js") == 0)
@@ -132,8 +136,7 @@ void add_page_reasons(nlohmann::ordered_json& page, PageArrays& arrays, const Vt
   }
   const double unmatched = 1 - std::accumulate(areas.begin(), areas.end(), 0.0);
   page["unmatched_text"] = reason_in_words(PageMarks{}.unmatched_text, unmatched);
-  std::string label = legend_title(RenderArray::kWhy, "");
-  label.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(label.front())));
+  const std::string label = with_capital(legend_title(RenderArray::kWhy, ""));
   page["quantities"].push_back(page_quantity(arrays, main, label, "", false));
 }
 

@@ -11,6 +11,9 @@
 
 namespace espdiff {
 
+/// A text with its first letter as a sentence's.
+std::string with_capital(std::string text);
+
 /// @throws DeviceError (this build has no three.js)
 void require_three();
 

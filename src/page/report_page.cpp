@@ -114,8 +114,9 @@ Json cause_tables(const Json& record) {
                                   shown_member(residue, "target"), shown_member(residue, "difference")}));
     }
     const std::string unit = " [" + shown_member(reading, "unit") + ']';
-    Json table = {{"title", "Causes of the difference, " + shown_member(reading, "reading")},
-                  {"help", shown_member(reading, "in_words") + ". " + shown_member(reading, "certainty")}};
+    Json table = {
+        {"title", "Causes of the difference, " + shown_member(reading, "reading")},
+        {"help", with_capital(shown_member(reading, "in_words")) + ". " + shown_member(reading, "certainty")}};
     table["columns"] = Json::array(
         {"Residue", "What changed", "Source" + unit, "Target" + unit, "Contribution to the difference" + unit});
     table["rows"] = std::move(rows);

@@ -187,7 +187,7 @@ TEST_CASE("a page has the causes of each reading, in words and by residue") {
               .status == 0);
   const auto table = nlohmann::json::parse(element(report_page(result.prefix, ""), "record")).at("tables").at(0);
   CHECK(table.at("title") == "Causes of the difference, region");
-  CHECK(contains(table.at("help").get<std::string>(), "the difference is "));
+  CHECK(contains(table.at("help").get<std::string>(), "The difference is "));
   CHECK(table.at("rows").size() > 1);
   CHECK(table.at("rows").at(0).size() == table.at("columns").size());
 }
@@ -219,9 +219,9 @@ TEST_CASE("a result that is not whole, or not a comparison's, is refused with th
       doctest::Contains("; this espdiff reads version 1: use that espdiff, or compute the result again"), FormatError);
   result.folder.write("pair.json", record);
   const std::string surface = read_file(result.prefix + ".vtp");
-  for (const std::string array : {"source_position", "residue_index"}) {
+  for (const std::string array : {"source_position", "residue_index", "potential_difference"}) {
     std::string without = surface;
-    without.replace(without.find('"' + array + '"') + 1, array.size(), std::string(array.size(), 'x'));
+    without.replace(without.find("Name=\"" + array + '"') + 6, array.size(), std::string(array.size(), 'x'));
     result.folder.write("pair.vtp", without);
     CHECK_THROWS_WITH_AS(report_page(result.prefix, ""),
                          doctest::Contains(("has no point array '" + array + "'; compare again").c_str()), FormatError);

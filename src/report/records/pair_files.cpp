@@ -142,6 +142,8 @@ PairFiles read_pair_files(const std::string& prefix) {
                           ".json; compare again");
   if (files.surface.triangles.empty())
     throw FormatError(prefix + ".vtp", 0, "the surface has no triangles; compare again");
+  for (const UsualQuantity& usual : kUsualQuantities)
+    if (usual.is_potential && !files.unit.empty()) required_array(files, usual.array, 1);
   files.residues = read_csv(prefix + ".residues.csv");
   for (const char* column : {"chain", "residue_number", "insertion_code", "residue_name"})
     files.residues.require(column);

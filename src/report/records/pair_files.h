@@ -33,7 +33,8 @@ std::string options_of(const nlohmann::ordered_json& record);
 nlohmann::ordered_json read_comparison_record(const std::string& path);
 
 /// @param prefix OUT
-/// @throws IoError, FormatError (missing or damaged files, another version's result, files of different comparisons)
+/// @throws IoError, FormatError (missing or damaged files, a surface without the potentials that were compared, another
+/// version's result, files of different comparisons)
 PairFiles read_pair_files(const std::string& prefix);
 
 /// A number of each vertex that surfaces are coloured by.
