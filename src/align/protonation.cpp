@@ -2,25 +2,32 @@
 #include "align/protonation.h"
 
 #include <algorithm>
-#include <set>
+#include <string_view>
 
 #include "align/residue_names.h"
 
 namespace espdiff {
 namespace {
 
-using Names = std::set<std::string>;
+/// Normalized names of a residue's atoms.
+struct Names {
+  std::vector<std::string> all{};
 
-/// [residue] normalized atom names.
+  std::size_t count(std::string_view name) const {
+    return std::find(all.begin(), all.end(), name) != all.end() ? 1 : 0;
+  }
+};
+
+/// [residue]
 std::vector<Names> names_of_residues(const Molecule& molecule) {
   std::vector<Names> names(molecule.residues.size());
   for (const Atom& atom : molecule.atoms)
-    names[static_cast<std::size_t>(atom.residue)].insert(normalized_atom_name(atom.name));
+    names[static_cast<std::size_t>(atom.residue)].all.push_back(normalized_atom_name(atom.name));
   return names;
 }
 
 bool has_hydrogens(const Names& names) {
-  return std::any_of(names.begin(), names.end(), [](const std::string& name) { return name[0] == 'H'; });
+  return std::any_of(names.all.begin(), names.all.end(), [](const std::string& name) { return name[0] == 'H'; });
 }
 
 /// [residue] whether its SG is bonded to another one.
@@ -62,10 +69,7 @@ std::string end_of_chain(const Names& has) {
   return has.count("H2") > 0 && (has.count("H3") > 0 || has.count("H1") > 0) ? "N-terminus" : "within the chain";
 }
 
-}  // namespace
-
-std::vector<std::string> protonation_states(const Molecule& molecule) {
-  const std::vector<Names> names = names_of_residues(molecule);
+std::vector<std::string> states_of(const Molecule& molecule, const std::vector<Names>& names) {
   const std::vector<bool> bonded = disulfides(molecule);
   std::vector<std::string> states;
   for (std::size_t r = 0; r < names.size(); ++r) {
@@ -73,6 +77,12 @@ std::vector<std::string> protonation_states(const Molecule& molecule) {
     states.push_back(has_hydrogens(names[r]) ? state_of(letter, names[r], bonded[r]) : std::string());
   }
   return states;
+}
+
+}  // namespace
+
+std::vector<std::string> protonation_states(const Molecule& molecule) {
+  return states_of(molecule, names_of_residues(molecule));
 }
 
 std::string describe_protonation(const std::string& state) {
@@ -90,8 +100,9 @@ std::string residue_in_words(const Residue& residue) {
 
 std::vector<ProtonationDifference> protonation_differences(const Molecule& source, const Molecule& target,
                                                            const std::vector<std::int32_t>& target_of) {
-  const std::vector<std::string> of_source = protonation_states(source), of_target = protonation_states(target);
   const std::vector<Names> source_names = names_of_residues(source), target_names = names_of_residues(target);
+  const std::vector<std::string> of_source = states_of(source, source_names),
+                                 of_target = states_of(target, target_names);
   std::vector<ProtonationDifference> differences;
   for (std::size_t r = 0; r < target_of.size(); ++r) {
     if (target_of[r] < 0) continue;

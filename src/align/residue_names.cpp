@@ -5,6 +5,7 @@
 #include <cctype>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "base/molecule/water.h"
 
@@ -60,6 +61,46 @@ ResidueKind kind_of(const std::string& residue_name, const std::vector<std::stri
   return ResidueKind::kOther;
 }
 
+/// Whether a name has neither blanks nor digits in front nor what older files write otherwise.
+bool is_plain(const std::string& name) {
+  return !name.empty() && !is_digit(name.front()) && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'A' && c <= 'Z') || is_digit(c) || c == '\'';
+  });
+}
+
+/// In capitals, with the digits at the end.
+std::string in_todays_order(const std::string& atom_name) {
+  std::string name;
+  for (const char c : atom_name) {
+    if (c == '*') {
+      name += '\'';
+    } else if (c == '"') {
+      name += "''";
+    } else if (c != ' ') {
+      name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    }
+  }
+  const auto first_letter = std::find_if_not(name.begin(), name.end(), is_digit);
+  if (first_letter == name.begin() || first_letter == name.end()) return name;
+  const std::string digits(name.begin(), first_letter);
+  name.erase(name.begin(), first_letter);
+  // 1H5* and 2H5* are now H5' and H5''.
+  if (name.back() == '\'' && (digits == "1" || digits == "2")) return digits == "1" ? name : name + '\'';
+  return name + digits;
+}
+
+/// The name that an older one has now; null without one.
+const char* synonym_of(std::string_view name) {
+  static constexpr std::pair<std::string_view, const char*> kSynonyms[] = {
+      {"HN", "H"},  {"HT1", "H1"},  {"HT2", "H2"}, {"HT3", "H3"},  {"HN1", "H1"},  {"HN2", "H2"},  {"HN3", "H3"},
+      {"OT1", "O"}, {"OT2", "OXT"}, {"OT", "OXT"}, {"O1P", "OP1"}, {"O2P", "OP2"}, {"O5T", "O5'"}, {"O3T", "O3'"}};
+  if (name.size() < 2 || name.size() > 3 || (name[0] != 'H' && name[0] != 'O')) return nullptr;
+  for (const auto& [old, today] : kSynonyms) {
+    if (old == name) return today;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 char residue_letter(const std::string& residue_name) {
@@ -86,32 +127,12 @@ bool same_residue_name(const std::string& a, const std::string& b) {
 }
 
 std::string normalized_atom_name(const std::string& atom_name, char letter) {
-  std::string name;
-  for (const char c : atom_name) {
-    if (c == '*') {
-      name += '\'';
-    } else if (c == '"') {
-      name += "''";
-    } else if (c != ' ') {
-      name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    }
-  }
-  const auto first_letter = std::find_if_not(name.begin(), name.end(), is_digit);
-  if (first_letter != name.begin() && first_letter != name.end()) {
-    const std::string digits(name.begin(), first_letter);
-    name.erase(name.begin(), first_letter);
-    // 1H5* and 2H5* are now H5' and H5''.
-    if (name.back() == '\'' && (digits == "1" || digits == "2")) return digits == "1" ? name : name + '\'';
-    name += digits;
-  }
+  std::string name = is_plain(atom_name) ? atom_name : in_todays_order(atom_name);
   if (letter == 'I' && name == "CD") return "CD1";
   if (letter == 'I' && name.size() == 3 && name.compare(0, 2, "HD") == 0) return "HD1" + name.substr(2);
   if (letter == 't' && name == "C5M") return "C7";  // thymine's methyl group before 2007
-  static const std::unordered_map<std::string_view, const char*> synonyms = {
-      {"HN", "H"},  {"HT1", "H1"},  {"HT2", "H2"}, {"HT3", "H3"},  {"HN1", "H1"},  {"HN2", "H2"},  {"HN3", "H3"},
-      {"OT1", "O"}, {"OT2", "OXT"}, {"OT", "OXT"}, {"O1P", "OP1"}, {"O2P", "OP2"}, {"O5T", "O5'"}, {"O3T", "O3'"}};
-  const auto synonym = synonyms.find(name);
-  return synonym == synonyms.end() ? name : synonym->second;
+  const char* const synonym = synonym_of(name);
+  return synonym == nullptr ? name : synonym;
 }
 
 std::vector<std::vector<std::size_t>> atoms_of_residues(const Molecule& molecule) {

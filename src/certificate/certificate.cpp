@@ -9,7 +9,6 @@
 #include "base/molecule/residue_label.h"
 #include "base/not_a_number.h"
 #include "base/text/short_numbers.h"
-#include "base/triangle_areas.h"
 #include "certificate/own_potentials.h"
 #include "certificate/slip.h"
 #include "engine/engine.h"
@@ -109,17 +108,18 @@ Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& targe
   return c;
 }
 
-double same_residue_share(const MappedSurface& s, const std::vector<std::int32_t>& source_residue,
+double same_residue_share(const MappedSurface& s, const SurfaceAreas& areas,
+                          const std::vector<std::int32_t>& source_residue,
                           const std::vector<std::int32_t>& target_residue, const std::vector<std::int32_t>& target_of) {
   double same = 0, all = 0;
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     if (!s.unmatched.empty() && s.unmatched[t] != 0) continue;
     const Triangle& v = s.triangles[t];
-    const double area = triangle_area(s.positions, v);
+    const double third = areas.mapped[t] / 3;
     for (const std::uint32_t c : v) {
       if (source_residue[c] < 0 || target_of[static_cast<std::size_t>(source_residue[c])] < 0) continue;
-      all += area / 3;
-      if (target_of[static_cast<std::size_t>(source_residue[c])] == target_residue[c]) same += area / 3;
+      all += third;
+      if (target_of[static_cast<std::size_t>(source_residue[c])] == target_residue[c]) same += third;
     }
   }
   return all > 0 ? same / all : std::numeric_limits<double>::quiet_NaN();

@@ -18,7 +18,8 @@ Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& targe
 /// Fraction of the area at vertices whose target residue is paired with their source residue; NaN if no residues pair.
 /// @param source_residue, target_residue [vertex] from Engine::vertex_residues()
 /// @param target_of [source residue] from paired_residues()
-double same_residue_share(const MappedSurface& surface, const std::vector<std::int32_t>& source_residue,
+double same_residue_share(const MappedSurface& surface, const SurfaceAreas& areas,
+                          const std::vector<std::int32_t>& source_residue,
                           const std::vector<std::int32_t>& target_residue, const std::vector<std::int32_t>& target_of);
 
 /// Why the fit of the mapped surface makes a result untrustworthy: corrupt, flipped and intersecting area, distances.

@@ -16,6 +16,8 @@ constexpr double kLeastOwnArea_A2 = 5;
 std::vector<bool> border_residues(const Mesh& surface, const std::vector<std::int32_t>& residue,
                                   const std::vector<std::int32_t>& partner_of) {
   std::vector<bool> borders(partner_of.size(), false);
+  if (std::none_of(partner_of.begin(), partner_of.end(), [](std::int32_t partner) { return partner < 0; }))
+    return borders;
   const auto lacks_partner = [&](std::uint32_t v) {
     return residue[v] >= 0 && partner_of[static_cast<std::size_t>(residue[v])] < 0;
   };
@@ -26,6 +28,19 @@ std::vector<bool> border_residues(const Mesh& surface, const std::vector<std::in
     }
   }
   return borders;
+}
+
+/// [triangle] a third of its area
+std::vector<double> thirds_of_areas(const Mesh& surface) {
+  std::vector<double> thirds(surface.triangles.size());
+  const auto n = static_cast<std::ptrdiff_t>(thirds.size());
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    const Triangle& t = surface.triangles[static_cast<std::size_t>(i)];
+    const Vec3f &a = surface.positions[t[0]], &b = surface.positions[t[1]], &c = surface.positions[t[2]];
+    thirds[static_cast<std::size_t>(i)] = static_cast<double>(norm(cross(b - a, c - a))) / 6;
+  }
+  return thirds;
 }
 
 bool has_both_differences(const ResidueRow& row) {
@@ -74,10 +89,10 @@ std::vector<OwnPotential> own_potentials(const Mesh& surface, const std::vector<
                                          const std::vector<float>& potential,
                                          const std::vector<std::int32_t>& partner_of) {
   std::vector<OwnPotential> own(partner_of.size());
-  for (const Triangle& t : surface.triangles) {
-    const Vec3f &a = surface.positions[t[0]], &b = surface.positions[t[1]], &c = surface.positions[t[2]];
-    const double third = static_cast<double>(norm(cross(b - a, c - a))) / 6;
-    for (const std::uint32_t v : t) {
+  const std::vector<double> thirds = thirds_of_areas(surface);
+  for (std::size_t t = 0; t < thirds.size(); ++t) {
+    const double third = thirds[t];
+    for (const std::uint32_t v : surface.triangles[t]) {
       if (residue[v] < 0 || !std::isfinite(potential[v])) continue;
       OwnPotential& at = own[static_cast<std::size_t>(residue[v])];
       at.mean += third * static_cast<double>(potential[v]);

@@ -13,6 +13,7 @@
 #include "certificate/certificate.h"
 #include "certificate/place_patch.h"
 #include "certificate/result.h"
+#include "certificate/slip.h"
 #include "engine/engine.h"
 #include "mapping/build_surface.h"
 #include "mapping/mapping.h"
@@ -60,7 +61,8 @@ double same_residue_share_of(const SurfacePart& part, const WholeMapping& whole)
   const std::vector<float>& unmatched = whole.mapping.unmatched;
   for (std::size_t t = 0; t < part.outside.size(); ++t)
     of_part.unmatched.push_back(part.outside[t] != 0 || (!unmatched.empty() && unmatched[t] != 0) ? 1 : 0);
-  return same_residue_share(of_part, whole.surface.residue, whole.surface.target_residue, whole.target_of);
+  return same_residue_share(of_part, surface_areas(of_part), whole.surface.residue, whole.surface.target_residue,
+                            whole.target_of);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/not_a_number.h"
-#include "base/triangle_areas.h"
 
 namespace espdiff {
 namespace {
@@ -19,13 +18,12 @@ struct CornerAreas {
 };
 
 /// [vertex] all of them by one walk over the triangles
-std::vector<CornerAreas> corner_areas(const MappedSurface& s) {
+std::vector<CornerAreas> corner_areas(const MappedSurface& s, const SurfaceAreas& of_triangles) {
   std::vector<CornerAreas> areas(s.positions.size());
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     const Triangle& corners = s.triangles[t];
     const bool is_trusted = s.why[t] == 0, is_valid = s.corrupt[t] == 0 && (s.unmatched.empty() || s.unmatched[t] == 0);
-    const double before = triangle_area(s.source_positions, corners) / 3,
-                 after = is_trusted || is_valid ? triangle_area(s.positions, corners) / 3 : 0;
+    const double before = of_triangles.source[t] / 3, after = is_trusted || is_valid ? of_triangles.mapped[t] / 3 : 0;
     for (const std::uint32_t c : corners) {
       CornerAreas& at = areas[c];
       at.own += before;
@@ -62,8 +60,9 @@ void add_slip_and_trust(const MappedSurface& s, const std::vector<CornerAreas>& 
 
 }  // namespace
 
-std::vector<ResidueRow> residue_rows(const MappedSurface& s, std::size_t n_residues, bool has_potential) {
-  const std::vector<CornerAreas> areas = corner_areas(s);
+std::vector<ResidueRow> residue_rows(const MappedSurface& s, const SurfaceAreas& of_triangles, std::size_t n_residues,
+                                     bool has_potential) {
+  const std::vector<CornerAreas> areas = corner_areas(s, of_triangles);
   std::vector<double> weight(areas.size());
   for (std::size_t v = 0; v < areas.size(); ++v) weight[v] = areas[v].trusted;
   std::vector<ResidueRow> rows(n_residues);

@@ -144,6 +144,12 @@ struct MappedSurface {
   std::vector<std::uint8_t> turned;  ///< [vertex] Turn of what it is on, where it lies off; see turned_atoms()
 };
 
+/// [triangle] Areas in the molecules' own frames, A^2: what many sums of a result have as weights.
+struct SurfaceAreas {
+  std::vector<double> source;  ///< before the mapping; empty where the surface has no such positions
+  std::vector<double> mapped;
+};
+
 /// The metrics at one distance outside the surfaces.
 struct OffsetMetrics {
   double offset_A = 0;

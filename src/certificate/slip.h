@@ -10,8 +10,10 @@
 
 namespace espdiff {
 
-/// [vertex] a third of the area of each matched triangle at the vertex.
-std::vector<double> matched_areas(const MappedSurface& surface);
+SurfaceAreas surface_areas(const MappedSurface& surface);
+
+/// [vertex] a third of the area of each matched triangle at the vertex. @param areas from surface_areas()
+std::vector<double> matched_areas(const MappedSurface& surface, const SurfaceAreas& areas);
 
 /// The fraction of the area at vertices without a potential on either side.
 /// @param areas from matched_areas()

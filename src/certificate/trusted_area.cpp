@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "base/formatted.h"
@@ -22,17 +21,19 @@ std::uint8_t code(Why why) { return static_cast<std::uint8_t>(why); }
 
 bool is_matched(const MappedSurface& s, std::size_t t) { return s.unmatched.empty() || s.unmatched[t] == 0; }
 
-/// Pairs of the target's residues that share a triangle of the mapped surface, smaller first.
-std::set<ResiduePair> touching_residues(const MappedSurface& s) {
-  std::set<ResiduePair> touching;
+/// Pairs of the target's residues that share a triangle of the mapped surface, smaller first, sorted.
+std::vector<ResiduePair> touching_residues(const MappedSurface& s) {
+  std::vector<ResiduePair> touching;
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     if (!is_matched(s, t)) continue;
     const Triangle& v = s.triangles[t];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t a = s.target_residue[v[k]], b = s.target_residue[v[(k + 1) % 3]];
-      if (a != b) touching.insert({std::min(a, b), std::max(a, b)});
+      if (a != b) touching.emplace_back(std::min(a, b), std::max(a, b));
     }
   }
+  std::sort(touching.begin(), touching.end());
+  touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
   return touching;
 }
 
@@ -43,14 +44,20 @@ bool slipped(const MappedSurface& s, const Triangle& v) {
 
 /// [vertex] whether it lies on its paired residue, or within kBorder_A of it on one that touches it.
 std::vector<std::uint8_t> on_own_residue(const MappedSurface& s, const std::vector<std::int32_t>& target_of) {
-  const std::set<ResiduePair> touching = touching_residues(s);
+  const std::vector<ResiduePair> touching = touching_residues(s);
+  const auto touches = [&](std::int32_t a, std::int32_t b) {
+    return std::binary_search(touching.begin(), touching.end(), ResiduePair{std::min(a, b), std::max(a, b)});
+  };
   std::vector<std::uint8_t> own(s.residue.size(), 0);
-  for (std::size_t v = 0; v < own.size(); ++v) {
+  const auto n = static_cast<std::ptrdiff_t>(own.size());
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t vertex = 0; vertex < n; ++vertex) {
+    const auto v = static_cast<std::size_t>(vertex);
     const std::int32_t partner = s.residue[v] < 0 ? -1 : target_of[static_cast<std::size_t>(s.residue[v])],
                        there = s.target_residue[v];
     if (partner < 0 || there < 0) continue;
     const bool near = !s.slip.empty() && s.slip[v] <= static_cast<float>(kBorder_A);
-    own[v] = partner == there || (near && touching.count({std::min(partner, there), std::max(partner, there)}) > 0);
+    own[v] = partner == there || (near && touches(partner, there));
   }
   return own;
 }
@@ -86,9 +93,11 @@ std::vector<std::uint8_t> why_of_mapping(const MappedSurface& s, const std::vect
     return turn == Turn::kResidue || (turn == Turn::kSideChain && kept == KeptTurns::kNone) ||
            (turn == Turn::kFarSideChain && kept != KeptTurns::kAll);
   };
-  std::vector<std::uint8_t> why;
-  why.reserve(s.triangles.size());
-  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+  std::vector<std::uint8_t> why(s.triangles.size());
+  const auto n = static_cast<std::ptrdiff_t>(why.size());
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t triangle = 0; triangle < n; ++triangle) {
+    const auto t = static_cast<std::size_t>(triangle);
     const Triangle& v = s.triangles[t];
     Why first = Why::kTrusted;
     if (!is_matched(s, t)) {
@@ -104,7 +113,7 @@ std::vector<std::uint8_t> why_of_mapping(const MappedSurface& s, const std::vect
     } else if (count(v, turned_away) >= 2) {
       first = Why::kTurned;
     }
-    why.push_back(code(first));
+    why[t] = code(first);
   }
   return why;
 }
@@ -150,16 +159,17 @@ std::vector<float> untrusted_triangles(const MappedSurface& s) {
   return untrusted;
 }
 
-TrustedArea sum_trusted(const MappedSurface& s, const std::vector<float>& outside, double unmatched_target) {
+TrustedArea sum_trusted(const MappedSurface& s, const SurfaceAreas& areas, const std::vector<float>& outside,
+                        double unmatched_target) {
   TrustedArea sums;
   double source = 0, matched = 0, trusted = 0;
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     if (!outside.empty() && outside[t] != 0) continue;
-    const double before = triangle_area(s.source_positions, s.triangles[t]);
+    const double before = areas.source[t];
     source += before;
     sums.by_why[s.why[t]] += before;
     if (!is_matched(s, t)) continue;
-    const double after = triangle_area(s.positions, s.triangles[t]);
+    const double after = areas.mapped[t];
     matched += after;
     trusted += s.why[t] == code(Why::kTrusted) ? after : 0;
   }
@@ -169,14 +179,15 @@ TrustedArea sum_trusted(const MappedSurface& s, const std::vector<float>& outsid
   return sums;
 }
 
-TurnedArea turned_area(const MappedSurface& s, const std::vector<float>& outside, const Molecule& source) {
+TurnedArea turned_area(const MappedSurface& s, const SurfaceAreas& areas, const std::vector<float>& outside,
+                       const Molecule& source) {
   double trusted = 0, turned = 0, rest = 0, difference = 0;
   std::vector<std::pair<double, std::size_t>> by_residue(source.residues.size());
   for (std::size_t r = 0; r < by_residue.size(); ++r) by_residue[r] = {0, r};
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     if (s.why[t] != code(Why::kTrusted) || (!outside.empty() && outside[t] != 0)) continue;
     const Triangle& corners = s.triangles[t];
-    const double before = triangle_area(s.source_positions, corners);
+    const double before = areas.source[t];
     trusted += before;
     const auto is_turned = [&](std::uint32_t v) { return s.turned[v] != 0; };
     if (!s.turned.empty() && std::count_if(corners.begin(), corners.end(), is_turned) >= 2) {
@@ -187,7 +198,7 @@ TurnedArea turned_area(const MappedSurface& s, const std::vector<float>& outside
       continue;
     }
     if (s.potential_source.empty()) continue;
-    const double after = triangle_area(s.positions, corners);  // the weight of the metrics
+    const double after = areas.mapped[t];  // the weight of the metrics
     rest += after;
     for (const std::uint32_t v : corners)
       difference += after / 3 *

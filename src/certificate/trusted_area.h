@@ -16,6 +16,7 @@ namespace espdiff {
 struct Certificate;
 struct CompareResult;
 struct MappedSurface;
+struct SurfaceAreas;
 struct ResidueRow;
 
 /// Why a triangle is not trusted; the first that holds. The numbers stand in OUT.vtp (`why`).
@@ -89,15 +90,17 @@ std::vector<float> untrusted_triangles(const MappedSurface& surface);
 
 /// @param outside          [triangle] nonzero where it does not belong to the part; empty for the whole
 /// @param unmatched_target of the certificate: the share of the target's area that nothing was mapped to
-TrustedArea sum_trusted(const MappedSurface& surface, const std::vector<float>& outside, double unmatched_target);
+TrustedArea sum_trusted(const MappedSurface& surface, const SurfaceAreas& areas, const std::vector<float>& outside,
+                        double unmatched_target);
 
 /// @param outside [triangle] nonzero where it does not belong to the part; empty for the whole
-TurnedArea turned_area(const MappedSurface& surface, const std::vector<float>& outside, const Molecule& source);
+TurnedArea turned_area(const MappedSurface& surface, const SurfaceAreas& areas, const std::vector<float>& outside,
+                       const Molecule& source);
 
 /// The parts that are not trusted, by residues and secondary structure (assign_folds()), largest first: "loop GLY 47 to
 /// SER 51 of chain A (230 A^2): slipped". At most six are named. @param rows the residues to look at
-std::vector<std::string> untrusted_parts(const MappedSurface& surface, const std::vector<ResidueRow>& rows,
-                                         const Molecule& source);
+std::vector<std::string> untrusted_parts(const MappedSurface& surface, const SurfaceAreas& areas,
+                                         const std::vector<ResidueRow>& rows, const Molecule& source);
 
 /// The mean absolute difference over the source's whole surface, of which the trusted part is known.
 struct WholeSurface {

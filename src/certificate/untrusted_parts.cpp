@@ -44,13 +44,12 @@ struct UntrustedPart {
   AreaByWhy area{};
 };
 
-std::vector<AreaByWhy> areas_by_residue(const MappedSurface& s, std::size_t n_residues) {
+std::vector<AreaByWhy> areas_by_residue(const MappedSurface& s, const SurfaceAreas& of_triangles,
+                                        std::size_t n_residues) {
   std::vector<AreaByWhy> areas(n_residues, AreaByWhy{});
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
-    const Triangle& v = s.triangles[t];
-    const auto& p = s.source_positions;
-    const double third = norm(cross(p[v[1]] - p[v[0]], p[v[2]] - p[v[0]])) / 6;
-    for (const std::uint32_t c : v) {
+    const double third = of_triangles.source[t] / 3;
+    for (const std::uint32_t c : s.triangles[t]) {
       if (s.residue[c] >= 0) areas[static_cast<std::size_t>(s.residue[c])][s.why[t]] += third;
     }
   }
@@ -119,9 +118,9 @@ std::string named(const UntrustedPart& part, const Molecule& source, const Secon
 
 }  // namespace
 
-std::vector<std::string> untrusted_parts(const MappedSurface& surface, const std::vector<ResidueRow>& rows,
-                                         const Molecule& source) {
-  std::vector<UntrustedPart> parts = runs_of(areas_by_residue(surface, source.residues.size()), rows, source);
+std::vector<std::string> untrusted_parts(const MappedSurface& surface, const SurfaceAreas& areas,
+                                         const std::vector<ResidueRow>& rows, const Molecule& source) {
+  std::vector<UntrustedPart> parts = runs_of(areas_by_residue(surface, areas, source.residues.size()), rows, source);
   parts.erase(std::remove_if(parts.begin(), parts.end(),
                              [](const UntrustedPart& part) { return untrusted(part.area) < kLeastNamedArea_A2; }),
               parts.end());

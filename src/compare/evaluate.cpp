@@ -1,6 +1,7 @@
 // evaluate.cpp: the stages after the mapping, in order.
 #include "compare/evaluate.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -36,14 +37,14 @@ void describe_chains(const Molecule& a, const Molecule& b, const std::vector<std
 }
 
 /// The verdicts on the whole and on its parts.
-void judge_all(const Molecule& molecule, double required_share, std::vector<MeasuredPart>& parts,
-               CompareResult& result) {
+void judge_all(const Molecule& molecule, const SurfaceAreas& areas, double required_share,
+               std::vector<MeasuredPart>& parts, CompareResult& result) {
   Certificate& certificate = result.certificate;
-  certificate.trusted = sum_trusted(result.surface, {}, certificate.unmatched_target);
-  certificate.turned = turned_area(result.surface, {}, molecule);
-  certificate.untrusted_parts = untrusted_parts(result.surface, result.residues, molecule);
+  certificate.trusted = sum_trusted(result.surface, areas, {}, certificate.unmatched_target);
+  certificate.turned = turned_area(result.surface, areas, {}, molecule);
+  certificate.untrusted_parts = untrusted_parts(result.surface, areas, result.residues, molecule);
   judge(result, result.inputs.warnings, molecule, required_share);
-  for (MeasuredPart& part : parts) finish_part(part, result, molecule, required_share);
+  for (MeasuredPart& part : parts) finish_part(part, result, areas, molecule, required_share);
 }
 
 }  // namespace
@@ -66,9 +67,9 @@ std::optional<Readings> evaluate(const StatesToMap& states, const std::vector<Fi
   MappedSurface& s = result.surface = std::move(step.surface);
   s.normals = std::move(normals.target);
   s.source_normals = std::move(normals.source);
-  result.uncovered =
-      uncovered_surface(engine.download(target.surface.mesh), engine.download(certificate.target_to_mapped.beyond),
-                        inverse(step.frame.from_target));
+  const std::vector<float> beyond = engine.download(certificate.target_to_mapped.beyond);
+  if (std::any_of(beyond.begin(), beyond.end(), [](float flag) { return flag != 0; }))
+    result.uncovered = uncovered_surface(engine.download(target.surface.mesh), beyond, inverse(step.frame.from_target));
   const PotentialSide of_source{source.input, source.map.map, source.surface},
       of_target{target.input, target.map.map, target.surface};
   std::vector<PotentialSamples> samples;
@@ -79,8 +80,8 @@ std::optional<Readings> evaluate(const StatesToMap& states, const std::vector<Fi
     s.potential_target = samples.front().target;
     set_unmatched_to_nan(step.is_matched, s.potential_target);
     mark_without_potential(s);
-    certificate.outside_maps = share_outside(s, matched_areas(s));
-    result.residues = residue_rows(s, states.source.residues.size(), true);
+    certificate.outside_maps = share_outside(s, matched_areas(s, step.areas));
+    result.residues = residue_rows(s, step.areas, states.source.residues.size(), true);
   }
   ResidueAgreement agreement =
       check_residues_of(states, of_source, of_target, unit, step, target_of, s, std::move(result.residues));
@@ -99,7 +100,7 @@ std::optional<Readings> evaluate(const StatesToMap& states, const std::vector<Fi
   result.field_patches = std::move(found.patches);
   append(result.inputs.warnings, std::move(found.warnings));
   describe_chains(states.source, states.target, source.input.parts.region, target_of, result);
-  judge_all(states.source, options.required_share, parts, result);
+  judge_all(states.source, step.areas, options.required_share, parts, result);
   clock.lap("metrics");
   std::optional<Readings> readings;
   if (!options.causes.empty())

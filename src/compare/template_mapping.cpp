@@ -257,7 +257,7 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, const Progress& pr
   const std::vector<Triangle>& triangles = step.surface.triangles;
   MeasuredSurface measured;
   Certificate& certificate = measured.certificate = std::move(step.certificate);
-  certificate.trusted = sum_trusted(step.surface, {}, certificate.unmatched_target);
+  certificate.trusted = sum_trusted(step.surface, step.areas, {}, certificate.unmatched_target);
   out.trusted = trusted_vertices(step.surface);
   out.trusted.resize(p.n_vertices);  // those that the morph added come after them
   out.potential = p.sample(made.map, frame, step.mapping, target, triangles, certificate.outside_maps);

@@ -303,29 +303,28 @@ std::vector<Warning> input_warnings(const Molecule& source, const Molecule& targ
   const PairedMolecules pair(source, target, alignment.pairing);
   bool source_is_known = false, target_is_known = false;
   using Warnings = std::vector<Warning>;
+  constexpr std::size_t kPairedCharges = 5;  // counts where both molecules' charges can be told
   const auto warnings = by_all({
       [&](Warnings& w) { check_chains(pair, w); },
       [&](Warnings& w) { check_geometry("source", pair.source, w); },
       [&](Warnings& w) { check_geometry("target", pair.target, w); },
       [&](Warnings& w) { source_is_known = check_charges("source", pair.source, w); },
       [&](Warnings& w) { target_is_known = check_charges("target", pair.target, w); },
+      [&](Warnings& w) { check_paired_charges(pair.source, pair.target, alignment.pairing, w); },
       [&](Warnings& w) { check_chirality(pair, w); },
       [&](Warnings& w) { check_register(pair, alignment, w); },
       [&](Warnings& w) { check_side_chains(pair, w); },
+      [&](Warnings& w) { check_rmsd(source, target, alignment, w); },
+      [&](Warnings& w) { check_arrangement(source, target, alignment, w); },
+      [&](Warnings& w) { check_ligands(pair.source, alignment, w); },
+      [&](Warnings& w) { check_poses(pair, alignment.pairing, w); },
+      [&](Warnings& w) { check_radii(source, target, alignment.pairing, w); },
   });
   Warnings all;
-  const auto add = [&](std::size_t first, std::size_t end) {
-    for (std::size_t k = first; k < end; ++k) all.insert(all.end(), warnings[k].begin(), warnings[k].end());
-  };
-  constexpr std::size_t kAfterCharges = 5;
-  add(0, kAfterCharges);
-  if (source_is_known && target_is_known) check_paired_charges(pair.source, pair.target, alignment.pairing, all);
-  add(kAfterCharges, warnings.size());
-  check_rmsd(source, target, alignment, all);
-  check_arrangement(source, target, alignment, all);
-  check_ligands(pair.source, alignment, all);
-  check_poses(pair, alignment.pairing, all);
-  check_radii(source, target, alignment.pairing, all);
+  for (std::size_t k = 0; k < warnings.size(); ++k) {
+    if (k == kPairedCharges && !(source_is_known && target_is_known)) continue;
+    all.insert(all.end(), warnings[k].begin(), warnings[k].end());
+  }
   return all;
 }
 

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "align/geometry/superpose.h"
 #include "base/error.h"
+#include "base/multiversion.h"
 #include "base/not_a_number.h"
 #include "base/units.h"
 #include "engine/engine.h"
@@ -50,6 +52,45 @@ std::vector<Vec3d> at_points(const std::vector<Vec3d>& positions, const RigidTra
   std::vector<Vec3d> moved;
   for (const Vec3d& p : positions) moved.push_back(transform.apply(p));
   return moved;
+}
+
+struct PointCharge {
+  Vec3d at;
+  double scaled;  ///< kT A / e^2
+};
+
+/// A few points at a time, so that their distances are computed in lanes.
+constexpr std::size_t kLanes = 8;
+
+struct BlockSums {
+  double vacuum[kLanes] = {}, screened[kLanes] = {}, direct[kLanes] = {};
+};
+
+ESPDIFF_MULTIVERSION void sum_charges(const std::vector<PointCharge>& charges, const Vec3d* points, std::size_t n,
+                                      BlockSums& sums) {
+  double x[kLanes], y[kLanes], z[kLanes], r[kLanes];
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const Vec3d& p = points[std::min(k, n - 1)];
+    x[k] = p.x;
+    y[k] = p.y;
+    z[k] = p.z;
+  }
+  for (const auto& [at, scaled] : charges) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const double dx = x[k] - at.x, dy = y[k] - at.y, dz = z[k] - at.z,
+                   distance = std::sqrt(dx * dx + dy * dy + dz * dz);
+      r[k] = distance < 0.5 ? 0.5 : distance;
+      sums.vacuum[k] += scaled / r[k];
+      sums.screened[k] += scaled / (r[k] * r[k]);
+      nearest = r[k] < nearest ? r[k] : nearest;
+    }
+    constexpr double kFar = 4 / kBeta;  // erfc(4) is 2e-8
+    if (nearest >= kFar) continue;
+    for (std::size_t k = 0; k < n; ++k) {
+      if (r[k] < kFar) sums.direct[k] += scaled * std::erfc(kBeta * r[k]) / r[k];
+    }
+  }
 }
 
 }  // namespace
@@ -146,39 +187,21 @@ const MapReferences::Sums& MapReferences::sums_of_charges() const {
   const std::vector<double> zero(points_.size(), 0);
   sums_ = Sums{zero, zero, zero};
   Sums& sums = *sums_;
-  // A few points at a time, so that their distances are computed in lanes.
-  constexpr std::size_t kLanes = 8;
+  std::vector<PointCharge> charges;
+  for (std::size_t a = 0; a < molecule_.size(); ++a) {
+    const double q = static_cast<double>(molecule_.charges[a]);
+    if (q != 0) charges.push_back({molecule_.positions[a], coulomb_ * q});
+  }
   const auto n_blocks = static_cast<std::ptrdiff_t>((points_.size() + kLanes - 1) / kLanes);
 #pragma omp parallel for schedule(static)
   for (std::ptrdiff_t block = 0; block < n_blocks; ++block) {
     const std::size_t first = static_cast<std::size_t>(block) * kLanes, n = std::min(kLanes, points_.size() - first);
-    double x[kLanes], y[kLanes], z[kLanes], r[kLanes], vacuum[kLanes] = {}, screened[kLanes] = {}, direct[kLanes] = {};
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const Vec3d& p = points_[first + std::min(k, n - 1)];
-      x[k] = p.x;
-      y[k] = p.y;
-      z[k] = p.z;
-    }
-    for (std::size_t a = 0; a < molecule_.size(); ++a) {
-      const double q = static_cast<double>(molecule_.charges[a]), scaled = coulomb_ * q;
-      if (q == 0) continue;
-      const Vec3d& at = molecule_.positions[a];
-      for (std::size_t k = 0; k < kLanes; ++k) {
-        const double dx = x[k] - at.x, dy = y[k] - at.y, dz = z[k] - at.z,
-                     distance = std::sqrt(dx * dx + dy * dy + dz * dz);
-        r[k] = distance < 0.5 ? 0.5 : distance;
-        vacuum[k] += scaled / r[k];
-        screened[k] += scaled / (r[k] * r[k]);
-      }
-      constexpr double kFar = 4 / kBeta;  // erfc(4) is 2e-8
-      for (std::size_t k = 0; k < kLanes; ++k) {
-        if (r[k] < kFar) direct[k] += scaled * std::erfc(kBeta * r[k]) / r[k];
-      }
-    }
+    BlockSums of_block;
+    sum_charges(charges, &points_[first], n, of_block);
     for (std::size_t k = 0; k < n; ++k) {
-      sums.vacuum[first + k] = vacuum[k];
-      sums.screened[first + k] = screened[k];
-      sums.direct[first + k] = direct[k];
+      sums.vacuum[first + k] = of_block.vacuum[k];
+      sums.screened[first + k] = of_block.screened[k];
+      sums.direct[first + k] = of_block.direct[k];
     }
   }
   return sums;

@@ -1,6 +1,8 @@
 // trusted_area.cpp: reasons by triangle, their sums, verdicts and names, on strips of triangles made by hand.
 #include "certificate/trusted_area.h"
 
+#include "certificate/slip.h"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -156,15 +158,15 @@ TEST_CASE("shares are those of both whole surfaces, and of a part") {
   MappedSurface s = separate_triangles(4);
   s.unmatched[3] = 1;
   s.why = codes({Why::kTrusted, Why::kTrusted, Why::kSlipped, Why::kUnmatched});
-  const TrustedArea whole = espdiff::sum_trusted(s, {}, 0.1);
+  const TrustedArea whole = espdiff::sum_trusted(s, espdiff::surface_areas(s), {}, 0.1);
   CHECK(whole.source == doctest::Approx(0.5));
   CHECK(whole.target == doctest::Approx(0.9 * 2 / 3));
   CHECK(whole.by_why[static_cast<std::size_t>(Why::kSlipped)] == doctest::Approx(0.25));
   CHECK(whole.share() == doctest::Approx(0.5));
-  const TrustedArea part = espdiff::sum_trusted(s, {0, 1, 0, 1}, 0);
+  const TrustedArea part = espdiff::sum_trusted(s, espdiff::surface_areas(s), {0, 1, 0, 1}, 0);
   CHECK(part.source == doctest::Approx(0.5));
   CHECK(part.target == doctest::Approx(0.5));
-  CHECK(std::isnan(espdiff::sum_trusted(s, {1, 1, 1, 1}, 0).source));
+  CHECK(std::isnan(espdiff::sum_trusted(s, espdiff::surface_areas(s), {1, 1, 1, 1}, 0).source));
 }
 
 TEST_CASE("three verdicts by the smaller share, and one by the share that is required") {
@@ -196,18 +198,18 @@ TEST_CASE("parts are named by runs of residues, largest first") {
   using W = Why;
   s.why = codes({W::kTrusted, W::kUnmatched, W::kTrusted, W::kTrusted, W::kSlipped, W::kTrusted, W::kSlipped,
                  W::kOtherResidue, W::kTrusted});
-  const std::vector<espdiff::ResidueRow> rows = espdiff::residue_rows(s, 9, false);
+  const std::vector<espdiff::ResidueRow> rows = espdiff::residue_rows(s, espdiff::surface_areas(s), 9, false);
   CHECK(rows[0].trusted_area_fraction == 1);
   CHECK(rows[1].trusted_area_fraction == 0);
   CHECK(rows[1].area_A2 == 0);
   CHECK(rows[4].matched_area_A2 == doctest::Approx(1));
-  CHECK(espdiff::untrusted_parts(s, rows, chain_of(9)) ==
+  CHECK(espdiff::untrusted_parts(s, espdiff::surface_areas(s), rows, chain_of(9)) ==
         std::vector<std::string>{"ALA 5 to ALA 8 of chain A (96 A^2): slipped off its atoms",
                                  "ALA 2 of chain A (32 A^2): unmatched"});
   espdiff::Molecule with_ligand = chain_of(9);
   with_ligand.residues[7].name = "NAD";
   with_ligand.atoms[7].name = "PA";
-  CHECK(espdiff::untrusted_parts(s, rows, with_ligand) ==
+  CHECK(espdiff::untrusted_parts(s, espdiff::surface_areas(s), rows, with_ligand) ==
         std::vector<std::string>{"ALA 5 to ALA 7 of chain A (64 A^2): slipped off its atoms",
                                  "ALA 2 of chain A (32 A^2): unmatched",
                                  "NAD 8 of chain A (32 A^2): on another residue"});
@@ -219,7 +221,8 @@ TEST_CASE("parts are named by helix, strand and loop where the backbone is known
   const auto parts = [&](const std::vector<std::size_t>& untrusted) {
     s.why.assign(20, static_cast<std::uint8_t>(Why::kTrusted));
     for (const std::size_t r : untrusted) s.why[r] = static_cast<std::uint8_t>(Why::kSlipped);
-    return espdiff::untrusted_parts(s, espdiff::residue_rows(s, 20, false), helix_and_loop(20));
+    return espdiff::untrusted_parts(s, espdiff::surface_areas(s),
+                                    espdiff::residue_rows(s, espdiff::surface_areas(s), 20, false), helix_and_loop(20));
   };
   const std::string slipped = "slipped off its atoms";
   CHECK(parts({3, 4, 5, 14, 17, 18}) ==
@@ -240,7 +243,7 @@ TEST_CASE("the whole surface is estimated from the residues' own surfaces, and b
   s.potential_target[7] = -5;
   result.potential.metrics.area_A2 = 2;
   result.potential.metrics.mean_abs_difference = 1;
-  result.residues = espdiff::residue_rows(s, 4, true);
+  result.residues = espdiff::residue_rows(s, espdiff::surface_areas(s), 4, true);
   for (espdiff::ResidueRow& row : result.residues) row.own_difference = 0.5;
   result.residues[2].own_difference = 2;  // twice what its own surfaces say, as in the trusted part: 4
   result.residues[3].own_difference = kNan;

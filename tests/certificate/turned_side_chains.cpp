@@ -1,5 +1,6 @@
 // turned_side_chains.cpp: which atoms count as turned, on a lysine and a tyrosine made by hand, and the area they have.
 #include "certificate/turned_side_chains.h"
+#include "certificate/slip.h"
 
 #include <doctest/doctest.h>
 
@@ -231,17 +232,17 @@ TEST_SUITE("compare.turned_side_chains") {
     }
     s.turned[0] = 1;  // one corner of three does not count
     s.why = {0, 0, 0, 0};
-    const espdiff::TurnedArea all = espdiff::turned_area(s, {}, molecule);
+    const espdiff::TurnedArea all = espdiff::turned_area(s, espdiff::surface_areas(s), {}, molecule);
     CHECK(all.of_trusted == doctest::Approx(0.5));
     CHECK(all.mean_abs_difference == doctest::Approx((1 * 1 + 4 * 2) / 5.0));
     CHECK(all.side_chains == std::vector<std::string>{"ALA 3 of chain A", "ALA 2 of chain A"});
     s.why[2] = static_cast<std::uint8_t>(espdiff::Why::kSlipped);
-    CHECK(espdiff::turned_area(s, {}, molecule).of_trusted == doctest::Approx(1 / 3.5));
-    const espdiff::TurnedArea part = espdiff::turned_area(s, {1, 0, 0, 1}, molecule);
+    CHECK(espdiff::turned_area(s, espdiff::surface_areas(s), {}, molecule).of_trusted == doctest::Approx(1 / 3.5));
+    const espdiff::TurnedArea part = espdiff::turned_area(s, espdiff::surface_areas(s), {1, 0, 0, 1}, molecule);
     CHECK(part.of_trusted == doctest::Approx(1));
     CHECK(std::isnan(part.mean_abs_difference));
     s.potential_source.clear();
-    CHECK(std::isnan(espdiff::turned_area(s, {}, molecule).mean_abs_difference));
-    CHECK(std::isnan(espdiff::turned_area(s, {1, 1, 1, 1}, molecule).of_trusted));
+    CHECK(std::isnan(espdiff::turned_area(s, espdiff::surface_areas(s), {}, molecule).mean_abs_difference));
+    CHECK(std::isnan(espdiff::turned_area(s, espdiff::surface_areas(s), {1, 1, 1, 1}, molecule).of_trusted));
   }
 }

@@ -132,6 +132,28 @@ TEST_CASE("rotations of collinear, few or fading atoms are damped") {
   CHECK(norm(with_fading[n + 1].own_rotation) == 0);
 }
 
+TEST_CASE("atoms of another motion have no weight, whatever they share lanes with") {
+  const std::vector<MovingAtom> all = packed(9, 7);
+  Random random(8);
+  std::vector<MovingAtom> mixed = all;
+  std::vector<MovingAtom> parts[3];
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    const std::size_t part = i % 7 == 0 ? 0 : i % 3 == 0 ? 1 : 2;
+    mixed[i].motion = turn_by(0.3 * static_cast<double>(part));
+    mixed[i].end = mixed[i].motion.apply(mixed[i].start + random.in_box(2), 1);
+    parts[part].push_back(mixed[i]);
+  }
+  set_local_rotations(mixed);
+  for (std::vector<MovingAtom>& part : parts) set_local_rotations(part);
+  std::size_t next[3] = {}, n_same = 0;
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    const std::size_t part = i % 7 == 0 ? 0 : i % 3 == 0 ? 1 : 2;
+    n_same += parts[part][next[part]++].own_rotation == mixed[i].own_rotation ? 1 : 0;
+  }
+  CHECK(n_same == mixed.size());
+  CHECK(norm(mixed[0].own_rotation) > 0);
+}
+
 TEST_CASE("rotations have the same bits at any number of threads, and can be cancelled") {
   std::vector<MovingAtom> one = packed(30, 6);
   const Screw screw = turn_by(0.6);

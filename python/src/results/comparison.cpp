@@ -194,7 +194,10 @@ void add_comparison(nb::module_& module) {
       .def_prop_ro("unmatched", array_of(&S::unmatched),
                    "(triangles) uint8: not 0 where it is unmatched; empty where all are matched.")
       .def_prop_ro(
-          "area", [](const Comparison& c) { return array_from(matched_areas(c.result.surface)); },
+          "area",
+          [](const Comparison& c) {
+            return array_from(matched_areas(c.result.surface, surface_areas(c.result.surface)));
+          },
           "(vertices) float64, A^2: a third of a vertex's triangles, without unmatched and corrupt ones.")
       .def_prop_ro("metrics", &metric_values, "Every number of the comparison by name; NaN where there is none.")
       .def("residue_columns", &residue_columns, "The residue table by columns.")

@@ -31,14 +31,25 @@ std::vector<bool> matched_vertices(const MappedSurface& s) {
   return has;
 }
 
+/// @param points in the common frame
+std::vector<Vec3d> transformed(const std::vector<Vec3f>& points, const RigidTransform& to_frame) {
+  std::vector<Vec3d> result(points.size());
+  const auto n = static_cast<std::ptrdiff_t>(points.size());
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    const auto v = static_cast<std::size_t>(i);
+    result[v] = to_frame.apply(static_cast<Vec3d>(points[v]));
+  }
+  return result;
+}
+
 void download_surface(Engine& engine, const MappedStep& step, MappedSurface& surface) {
   const RigidTransform to_source = inverse(step.frame.from_source), to_target = inverse(step.frame.from_target);
   const Mapping& mapping = step.mapping;
   Mesh mapped = engine.download_shape(mapping.mapped);
   surface.triangles = std::move(mapped.triangles);
-  for (const Vec3f& p : mapped.positions) surface.positions.push_back(to_target.apply(static_cast<Vec3d>(p)));
-  for (const Vec3f& p : engine.download_positions(mapping.source))
-    surface.source_positions.push_back(to_source.apply(static_cast<Vec3d>(p)));
+  surface.positions = transformed(mapped.positions, to_target);
+  surface.source_positions = transformed(engine.download_positions(mapping.source), to_source);
   surface.displacement = engine.download(engine.displacement(step.moved, mapping.mapped));
   surface.unmatched.assign(mapping.unmatched.begin(), mapping.unmatched.end());
   surface.corrupt = to_full_mesh(engine.download(mapping.fit.corrupt), mapping.unmatched);
@@ -46,7 +57,12 @@ void download_surface(Engine& engine, const MappedStep& step, MappedSurface& sur
 }
 
 std::vector<Vec3f> rotated(std::vector<Vec3f> normals, const RigidTransform& to_frame) {
-  for (Vec3f& n : normals) n = static_cast<Vec3f>(to_frame.rotate(static_cast<Vec3d>(n)));
+  const auto n = static_cast<std::ptrdiff_t>(normals.size());
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    Vec3f& normal = normals[static_cast<std::size_t>(i)];
+    normal = static_cast<Vec3f>(to_frame.rotate(static_cast<Vec3d>(normal)));
+  }
   return normals;
 }
 
@@ -138,20 +154,22 @@ void describe(const StatesToMap& states, KeptTurns kept, MappedStep& step) {
   step.moved = step.frame.domains.carry(engine, mapping.source, states.source_surface.atoms);
   download_surface(engine, step, s);
   step.is_matched = matched_vertices(s);
+  step.areas = surface_areas(s);
   set_unmatched_to_nan(step.is_matched, s.displacement);
   set_unmatched_to_nan(step.is_matched, s.path_length);
   s.residue = engine.vertex_residues(mapping.source, states.source_surface.atoms);
   if (!step.paths.empty()) {
     s.slip = engine.slip(mapping.source, mapping.mapped, states.target_surface.mesh, step.paths);
     set_unmatched_to_nan(step.is_matched, s.slip);
-    step.certificate.slip = summarize_slip(s, matched_areas(s));
+    step.certificate.slip = summarize_slip(s, matched_areas(s, step.areas));
   }
   s.target_residue = engine.vertex_residues(mapping.mapped, states.target_surface.atoms);
   const std::vector<std::int32_t> target_of = paired_residues(states.source, states.target, states.alignment.pairing);
-  step.certificate.same_residue_area_fraction = same_residue_share(s, s.residue, s.target_residue, target_of);
+  step.certificate.same_residue_area_fraction =
+      same_residue_share(s, step.areas, s.residue, s.target_residue, target_of);
   mark_turned(states, step, s);
   s.why = why_of_mapping(s, target_of, kept);
-  step.rows = residue_rows(s, states.source.residues.size(), false);
+  step.rows = residue_rows(s, step.areas, states.source.residues.size(), false);
 }
 
 }  // namespace

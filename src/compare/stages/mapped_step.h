@@ -59,6 +59,7 @@ struct MappedStep {
   std::vector<bool> is_matched;  ///< [vertex] whether it lies in a matched triangle
   Certificate certificate;       ///< not judged
   MappedSurface surface;         ///< without normals and potentials
+  SurfaceAreas areas;            ///< of that surface
   std::vector<ResidueRow> rows;  ///< [source residue] without potentials
 };
 

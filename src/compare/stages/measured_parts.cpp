@@ -64,7 +64,8 @@ std::vector<MeasuredPart> measure_parts(const StatesToMap& states, const MappedS
   return parts;
 }
 
-void finish_part(MeasuredPart& measured, const CompareResult& whole, const Molecule& source, double required_share) {
+void finish_part(MeasuredPart& measured, const CompareResult& whole, const SurfaceAreas& areas, const Molecule& source,
+                 double required_share) {
   const SurfacePart& place = measured.place;
   PartResult& part = measured.result;
   part.n_steps = whole.n_steps;
@@ -72,10 +73,10 @@ void finish_part(MeasuredPart& measured, const CompareResult& whole, const Molec
     if (place.source[row.residue] != 0) part.residues.push_back(row);
   }
   count_outside_maps(place, whole, part);
-  part.certificate.trusted = sum_trusted(whole.surface, place.outside, part.certificate.unmatched_target);
-  part.certificate.turned = turned_area(whole.surface, place.outside, source);
+  part.certificate.trusted = sum_trusted(whole.surface, areas, place.outside, part.certificate.unmatched_target);
+  part.certificate.turned = turned_area(whole.surface, areas, place.outside, source);
   if (judge_missing_part(part)) return;
-  part.certificate.untrusted_parts = untrusted_parts(whole.surface, part.residues, source);
+  part.certificate.untrusted_parts = untrusted_parts(whole.surface, areas, part.residues, source);
   judge(part, whole.inputs.warnings, source, required_share);
   judge_placement(part);
 }

@@ -22,7 +22,8 @@ std::vector<MeasuredPart> measure_parts(const StatesToMap& states, const MappedS
                                         const std::vector<std::int32_t>& target_of);
 
 /// A part's residues, vertices outside a map, and verdict, from the finished rows and warnings of the whole.
-/// @param required_share as in judge()
-void finish_part(MeasuredPart& part, const CompareResult& whole, const Molecule& source, double required_share);
+/// @param areas of the whole surface  @param required_share as in judge()
+void finish_part(MeasuredPart& part, const CompareResult& whole, const SurfaceAreas& areas, const Molecule& source,
+                 double required_share);
 
 }  // namespace espdiff

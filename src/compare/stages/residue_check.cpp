@@ -68,11 +68,14 @@ ResidueAgreement check_residues_of(const StatesToMap& states, const PotentialSid
   const std::vector<OwnPotential> own_on_target = own_on(states, target, source_of);
   set_own_differences(rows, own, own_on_target, target_of);
   const std::vector<std::uint8_t> disagree = disagreeing_residues(rows, own);
-  mark_disagreeing(surface, disagree);
-  rows = residue_rows(surface, rows.size(), true);
-  set_own_differences(rows, own, own_on_target, target_of);
+  const auto n_disagreeing = static_cast<std::size_t>(std::count(disagree.begin(), disagree.end(), 1));
+  if (n_disagreeing > 0) {
+    mark_disagreeing(surface, disagree);
+    rows = residue_rows(surface, step.areas, rows.size(), true);
+    set_own_differences(rows, own, own_on_target, target_of);
+  }
   ResidueCheck check = check_residues(rows, own);
-  check.n_disagreeing = static_cast<std::size_t>(std::count(disagree.begin(), disagree.end(), 1));
+  check.n_disagreeing = n_disagreeing;
   bool applies = check.n_residues >= kLeastComparedResidues;
   constexpr double kSureCorrelation = 0.9;
   if (applies && !(check.correlation >= kSureCorrelation)) {

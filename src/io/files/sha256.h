@@ -12,6 +12,12 @@ namespace espdiff {
 /// The secure hash SHA-256 (FIPS 180-4, sections 4 to 6) of bytes that come in pieces.
 class Sha256 {
  public:
+  /// @param by_instructions uses the processor's own, several times as fast; the digests are the same
+  explicit Sha256(bool by_instructions = has_instructions()) : by_instructions_(by_instructions) {}
+
+  /// Whether the processor has instructions for it.
+  static bool has_instructions();
+
   void update(const void* bytes, std::size_t n_bytes);
   /// 64 lower-case hexadecimal digits of all bytes so far; ends the computation.
   std::string finish();
@@ -20,6 +26,7 @@ class Sha256 {
   static std::array<std::uint32_t, 8> initial_state();
   void compress(const std::uint8_t* block);
 
+  bool by_instructions_;
   std::array<std::uint32_t, 8> state_ = initial_state();
   std::array<std::uint8_t, 64> block_{};
   std::size_t n_in_block_ = 0;

@@ -31,6 +31,18 @@ TEST_CASE("pieces give the hash of the whole, at every length around a block") {
   }
 }
 
+TEST_CASE("with the processor's instructions and without them the hash is the same") {
+  if (!Sha256::has_instructions()) MESSAGE("SKIPPED: this processor has no instructions for SHA-256");
+  std::string text;
+  for (int n = 0; n < 300; ++n) {
+    Sha256 plain(false), chosen;
+    plain.update(text.data(), text.size());
+    chosen.update(text.data(), text.size());
+    CHECK(plain.finish() == chosen.finish());
+    text += static_cast<char>(37 * n + 11);
+  }
+}
+
 TEST_CASE("a file hashes to its content, larger than one chunk and empty") {
   const ScratchFolder folder;
   const std::string text(200001, 'z');
