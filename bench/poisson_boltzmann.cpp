@@ -85,9 +85,16 @@ Lattice cube(const Molecule& m, int n, double side) {
   return lattice;
 }
 
+/// The border of one grid alone, which all tables but that of borders are of.
+PoissonBoltzmannOptions one_grid() {
+  PoissonBoltzmannOptions options;
+  options.far_boundary = espdiff::FarBoundary::kDebyeHueckel;
+  return options;
+}
+
 espdiff::GridPtr potential(espdiff::Engine& engine, const Molecule& m, const Lattice& lattice,
                            PoissonBoltzmannReport* report, const espdiff::GridPtr& start = nullptr,
-                           const PoissonBoltzmannOptions& options = {}) {
+                           const PoissonBoltzmannOptions& options = one_grid()) {
   return engine.poisson_boltzmann(m.positions, m.radii, m.charges, lattice, options, {}, start, {}, report);
 }
 
@@ -242,7 +249,7 @@ void study_spacing(const std::string& name, const std::string& first, const std:
   for (const auto smoothing : {espdiff::DielectricSmoothing::kEdges, espdiff::DielectricSmoothing::kNinePoint}) {
     for (const double h : {1.0, 0.7, 0.5, 0.35, 0.25}) {
       if (h < finest) break;
-      PoissonBoltzmannOptions options;
+      PoissonBoltzmannOptions options = one_grid();
       options.smoothing = smoothing;
       const auto on_surface = [&](const Molecule& m) {
         const Lattice lattice = espdiff::poisson_boltzmann_lattice(a.positions, a.radii, h, 12);

@@ -60,15 +60,23 @@ struct Series::Steps {
     restored.reset();
   }
 
+  /// How far outside the surfaces potentials are read, or side chains may have other places.
+  double potential_reach_A() const {
+    constexpr double kSideChain_A = 7;  // from CB to the last hydrogen of arginine
+    const double read_A = *std::max_element(options.offsets_A.begin(), options.offsets_A.end());
+    return options.side_chains > 0 ? std::max(read_A, kSideChain_A) : read_A;
+  }
+
   /// The target's map; the source's too, unless it is there already.
   void make_maps(ComparedSide& target, const CommonFrame& frame, ComparedMaps& maps, const Progress& progress) {
     if (!has_map(target.input)) return;
     const PotentialUnit wanted = common_unit(source.input, target.input);
     const double temperature_K = options.temperature_K;
     const bool for_readings = !options.causes.empty();
+    const double reach_A = potential_reach_A();
     if (source.map.map == nullptr || wanted != unit) {
-      source.map = device_map(engine, source.input, inverse(frame.from_source), {nullptr, for_readings}, wanted,
-                              temperature_K, progress);
+      source.map = device_map(engine, source.input, inverse(frame.from_source), {nullptr, for_readings, reach_A},
+                              wanted, temperature_K, progress);
       unit = wanted;
     }
     if (source.input.make_map) maps.source_recipe = std::make_shared<const MapRecipe>(source.map.recipe);
@@ -76,7 +84,7 @@ struct Series::Steps {
     // An iteration may start from the source's potential, whatever steps were made before: the bits of a step do not
     // depend on them.
     const GridPtr before = source.input.make_map ? source.map.map : nullptr;
-    target.map = device_map(engine, target.input, inverse(frame.from_target), {before, for_readings}, wanted,
+    target.map = device_map(engine, target.input, inverse(frame.from_target), {before, for_readings, reach_A}, wanted,
                             temperature_K, progress);
     if (target.input.make_map) maps.target_recipe = std::make_shared<const MapRecipe>(std::move(target.map.recipe));
   }

@@ -91,8 +91,10 @@ struct TemplateMapping::Parts {
   MadeMap frame_map(const CompareInput& frame, const RigidTransform& to_map, const Progress& progress) {
     const PotentialUnit unit = unit_of(frame);
     if (map == nullptr && source.make_map)
-      map = device_map(engine, source, inverse(to_common), {}, unit, options.temperature_K, progress).map;
-    const MapRequest request{frame.make_map ? map : nullptr, !reading_weights.empty()};
+      map = device_map(engine, source, inverse(to_common), {nullptr, false, options.offsets_A.front()}, unit,
+                       options.temperature_K, progress)
+                .map;
+    const MapRequest request{frame.make_map ? map : nullptr, !reading_weights.empty(), options.offsets_A.front()};
     return device_map(engine, frame, to_map, request, unit, options.temperature_K, progress);
   }
 

@@ -36,7 +36,7 @@ Lattice poisson_boltzmann_lattice(const std::vector<Vec3d>& positions, const std
   if (!(spacing_A > 0) || !std::isfinite(spacing_A))
     throw InputError("grid spacing " + formatted(spacing_A) + " A is not a positive number; 0.5 is usual");
   if (!(padding_A >= 0) || !std::isfinite(padding_A))
-    throw InputError("padding " + formatted(padding_A) + " A is not a number from 0 on; 12 is usual");
+    throw InputError("padding " + formatted(padding_A) + " A is not a number from 0 on; 6 is usual");
   if (positions.empty()) throw InputError("no atoms to lay a grid around");
   const Box box = box_around(positions, radii);
   Lattice lattice;

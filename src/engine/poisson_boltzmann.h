@@ -28,7 +28,7 @@ enum class FarBoundary {
   kFocus  ///< the potential on a grid of twice the spacing that reaches 20 A beyond the atoms, with that sum there
 };
 
-/// Parameters of Engine::poisson_boltzmann(). The defaults are those of APBS' examples, except the temperature.
+/// Parameters of Engine::poisson_boltzmann(). The defaults are those of APBS' examples, except temperature and border.
 struct PoissonBoltzmannOptions {
   double solute_dielectric = 2;
   double solvent_dielectric = 78.54;
@@ -39,7 +39,7 @@ struct PoissonBoltzmannOptions {
   double temperature_K = 300;
   DielectricBoundary dielectric_boundary = DielectricBoundary::kMolecular;
   DielectricSmoothing smoothing = DielectricSmoothing::kEdges;
-  FarBoundary far_boundary = FarBoundary::kDebyeHueckel;
+  FarBoundary far_boundary = FarBoundary::kFocus;
   bool nonlinear = false;  ///< sinh(phi) instead of phi for the ions
   /// Of the error that the iteration leaves at the surface, relative to the potential's rms there. Of the nonlinear
   /// equation, and where there is no boundary: of the residual's norm, relative to the right-hand side's.
@@ -65,9 +65,11 @@ struct PoissonBoltzmannReport {
   double debye_length_A = 0;     ///< infinite without salt
 };
 
-/// Defaults. At 0.5 A a surface's potentials differ by 1 % from those at 0.25 A; 12 A of solvent around the atoms
-/// change them by 0.1 % against 24 A (docs/potentials.md).
-constexpr double kUsualPbSpacing_A = 0.5, kUsualPbPadding_A = 12;
+/// Defaults. At 0.5 A a surface's potentials differ by 1 % from those at 0.25 A. 6 A of solvent around the atoms with
+/// FarBoundary::kFocus change them by at most 0.1 % up to 3 A outside (docs/potentials.md).
+constexpr double kUsualPbSpacing_A = 0.5, kUsualPbPadding_A = 6;
+/// Of maps that are written, and of FarBoundary::kDebyeHueckel, which then errs by 0.4 to 1.5 % at 3 A.
+constexpr double kWidePbPadding_A = 12;
 
 /// A cubic lattice for Engine::poisson_boltzmann() along the axes of the atoms' frame: it reaches `padding_A` beyond
 /// every atom's sphere and is centred on their box. The numbers of points are multiples of eight plus one, for the

@@ -171,6 +171,7 @@ MapReferences::MapReferences(Engine& engine, const Molecule& molecule, const Rig
   options.tolerance = kCoarseTolerance;
   options.temperature_K = temperature_K;
   options.dielectric_boundary = DielectricBoundary::kVanDerWaals;  // half the time; slopes change by a few percent
+  options.far_boundary = FarBoundary::kDebyeHueckel;               // read near the atoms only
   try {
     const Lattice lattice = poisson_boltzmann_lattice(positions, molecule.radii, kCoarse_A, kCoarsePadding_A);
     const Grid grid = engine.download(engine.poisson_boltzmann(positions, molecule.radii, molecule.charges, lattice,

@@ -19,6 +19,7 @@ struct MapRequest {
   /// from it; null where there is none.
   GridPtr before = nullptr;
   bool for_readings = false;  ///< Engine::contributions() is asked of it: what that needs of the solution is kept
+  double reach_A = 0;         ///< how far outside the surface it is read
 };
 
 /// Makes a potential where it is needed, on the device: sampled there in whatever way it was made for, such as by its

@@ -97,8 +97,9 @@ MadeMap ComputedMap::Charges::poisson_boltzmann(Engine& engine, const RigidTrans
   MadeMap made{nullptr, recipe};
   MapRecipe& r = made.recipe;
   const std::vector<Vec3d> positions = moved(molecule.positions, inverse(to_map));
-  r.pb_lattice =
-      on_multiples(poisson_boltzmann_lattice(positions, molecule.radii, options.pb_spacing_A, options.pb_padding_A));
+  constexpr double kBeyondReading_A = 2;
+  const double padding_A = std::max(options.pb_padding_A, request.reach_A + kBeyondReading_A);
+  r.pb_lattice = on_multiples(poisson_boltzmann_lattice(positions, molecule.radii, options.pb_spacing_A, padding_A));
   PoissonBoltzmannOptions pb = r.pb;
   pb.keep_operator = request.for_readings;
   try {

@@ -69,8 +69,9 @@ void add_pb_settings(std::vector<PotentialSetting>& all) {
        Rows::choice_of<FarBoundary>(
            "far-boundary", "", {{"debye-hueckel", FarBoundary::kDebyeHueckel}, {"focus", FarBoundary::kFocus}},
            [](auto& o) -> auto& { return o.pb.far_boundary; },
-           "Values on the grid's border: the sum of all charges' Debye-Hueckel potentials, or those of a grid of twice "
-           "the spacing that reaches 20 Angstrom beyond the atoms")});
+           "Values on the grid's border: focus takes those of a grid of twice the spacing that reaches 20 Angstrom "
+           "beyond "
+           "the atoms, debye-hueckel the sum of all charges' Debye-Hueckel potentials")});
   all.push_back({"spacing", kPb,
                  Rows::number(
                      "pb-spacing", "", kPositive, [](auto& o) -> auto& { return o.pb_spacing_A; },
@@ -78,7 +79,11 @@ void add_pb_settings(std::vector<PotentialSetting>& all) {
   all.push_back({"padding", kPb,
                  Rows::number(
                      "pb-padding", "", kPositive, [](auto& o) -> auto& { return o.pb_padding_A; },
-                     "Space between the atoms' spheres and the grid's border, Angstrom")});
+                     "Least space between the atoms' spheres and the grid's border, Angstrom; 12 where the map is "
+                     "written and for "
+                     "the border debye-hueckel. It is at least 2 more than the largest distance at which a surface is "
+                     "read, and 9 "
+                     "where side chains are drawn in other places")});
   all.push_back({"tolerance", kPb,
                  Rows::number(
                      "pb-tolerance", "", kPositive, [](auto& o) -> auto& { return o.pb.tolerance; },
@@ -215,6 +220,8 @@ PotentialOptions make_potential_options(PotentialMethod method, const GivenPoten
                        to_string(setting.of.front()));
     setting.set(o, text);
   }
+  const bool is_wide = on_lattice || o.pb.far_boundary == FarBoundary::kDebyeHueckel;
+  if (is_wide && !is_given("padding")) o.pb_padding_A = kWidePbPadding_A;
   if (o.pme.compatible) {
     if (!is_given("part")) o.pme.part = PmePart::kSmooth;
     if (!is_given("spline")) o.pme.order = usual_order(true);

@@ -234,6 +234,32 @@ TEST_CASE("what a reader must know of two potentials") {
                                  "charges may be missing"});
 }
 
+TEST_CASE(
+    "a Poisson-Boltzmann map reaches 6 A beyond the atoms, farther where it is read farther out, 12 A if written") {
+  const auto engine = cpu();
+  Molecule ion;
+  ion.positions = {{0, 0, 0}};
+  ion.radii = {2.0F};
+  ion.charges = {1.0F};
+  espdiff::PotentialOptions options;
+  options.method = espdiff::PotentialMethod::kPoissonBoltzmann;
+  options.pb_spacing_A = 1;
+  const espdiff::MapMaker maker = ComputedMap(ion, {}, options).maker();
+  const auto half_extent = [&](double reach_A) {
+    const espdiff::Lattice lattice = maker(*engine, {}, {nullptr, false, reach_A}, {}).recipe.pb_lattice;
+    return 0.5 * (lattice.size[0] - 1);
+  };
+  CHECK(half_extent(0) == 8);
+  CHECK(half_extent(4) == 8);
+  CHECK(half_extent(11) == 16);
+  const auto padding = [](bool on_lattice) {
+    return espdiff::make_potential_options(espdiff::PotentialMethod::kPoissonBoltzmann, {}, 300, on_lattice)
+        .pb_padding_A;
+  };
+  CHECK(padding(false) == 6);
+  CHECK(padding(true) == 12);
+}
+
 TEST_CASE("a mean over frames is named so") {
   espdiff::MapRecipe recipe;
   recipe.has_water = true;

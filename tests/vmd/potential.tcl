@@ -157,7 +157,7 @@ test "a cell from a NAMD file is the same cell given" {
 test "every option of Poisson-Boltzmann's table, as the command line has it" {
     set molecule [mol new [input pqr_pdb2pqr/1AJJ_pH7_AMBER.pqr] type pqr waitfor all]
     set options {-ionic-strength 0.05 -solute-dielectric 4 -dielectric-boundary vdw -pb-spacing 1.5 -pb-padding 8
-        -far-boundary focus}
+        -far-boundary debye-hueckel}
     espdiff potential -mol $molecule -method pb {*}$options -loadmol none -dxfile $scratch/vmd.dx
     set words {}
     foreach {option value} $options { lappend words -$option $value }

@@ -64,10 +64,21 @@ void check_pb_options(const PoissonBoltzmannOptions& o) {
   require(o.ion_radius_A >= 0, "ion radius", o.ion_radius_A, " A", "is not a number from 0 on; 2 is usual");
   require(o.probe_radius_A >= 0, "probe radius", o.probe_radius_A, " A", "is not a number from 0 on; 1.4 is water's");
   require(o.gaussian_sigma > 0, "Gaussian sigma", o.gaussian_sigma, "", "is not a positive number; 0.93 is usual");
-  require(o.tolerance > 0 && o.tolerance < 1, "tolerance", o.tolerance, "", "is not between 0 and 1; 1e-6 is usual");
+  require(o.tolerance > 0 && o.tolerance < 1, "tolerance", o.tolerance, "", "is not between 0 and 1; 1e-4 is usual");
   require(o.max_cycles >= 1, "number of cycles", o.max_cycles, "", "is below 1; 100 is usual");
   require(o.max_newton_steps >= 1, "number of Newton steps", o.max_newton_steps, "", "is below 1; 50 is usual");
   check_temperature(o.temperature_K);
+}
+
+void require_pb_memory(const Lattice& lattice, double spacing_A, const PoissonBoltzmannOptions& options) {
+  double n_points = 1;
+  for (const int n : lattice.size) n_points *= n;
+  const double per_point = pb_bytes_per_point(options), coarser = coarsening_to_fit(n_points, per_point);
+  if (coarser <= 1) return;
+  const std::string fits = formatted("%.2f", std::ceil(100 * spacing_A * coarser) / 100);
+  throw MemoryError("a grid of " + std::to_string(lattice.size[0]) + " x " + std::to_string(lattice.size[1]) + " x " +
+                    std::to_string(lattice.size[2]) + " points " + need_in_words(n_points, per_point) +
+                    "; a spacing of " + fits + " A would fit");
 }
 
 CubicLattice checked_pb_lattice(const Lattice& lattice, const std::vector<Vec3d>& positions,
@@ -79,16 +90,13 @@ CubicLattice checked_pb_lattice(const Lattice& lattice, const std::vector<Vec3d>
       throw InputError("the Poisson-Boltzmann equation needs a cubic lattice along the axes");
   }
   constexpr int kFewest = 9;
-  const std::string size = std::to_string(lattice.size[0]) + " x " + std::to_string(lattice.size[1]) + " x " +
-                           std::to_string(lattice.size[2]);
-  double n_points = 1;
   CubicLattice result{};
   for (int axis = 0; axis < 3; ++axis) {
     const int n = lattice.size[static_cast<std::size_t>(axis)];
     if (n < kFewest)
-      throw InputError("a grid of " + size + " points is too small; each axis needs at least " +
+      throw InputError("a grid of " + std::to_string(lattice.size[0]) + " x " + std::to_string(lattice.size[1]) +
+                       " x " + std::to_string(lattice.size[2]) + " points is too small; each axis needs at least " +
                        std::to_string(kFewest));
-    n_points *= n;
     result.size[axis] = n;
   }
   result.origin = static_cast<Vec3f>(lattice.origin);
@@ -103,12 +111,7 @@ CubicLattice checked_pb_lattice(const Lattice& lattice, const std::vector<Vec3d>
                          formatted(kMargin * h) + " A of its border; use a larger padding");
     }
   }
-  const double per_point = pb_bytes_per_point(options), coarser = coarsening_to_fit(n_points, per_point);
-  if (coarser > 1) {
-    const std::string fits = formatted("%.2f", std::ceil(100 * h * coarser) / 100);
-    throw MemoryError("a grid of " + size + " points " + need_in_words(n_points, per_point) + "; a spacing of " + fits +
-                      " A would fit");
-  }
+  require_pb_memory(lattice, h, options);
   return result;
 }
 

@@ -21,6 +21,9 @@ void check_pb_atoms(const std::vector<Vec3d>& positions, const std::vector<float
                     const std::vector<float>& charges);
 /// @throws InputError naming the parameter, its value and what is usual
 void check_pb_options(const PoissonBoltzmannOptions& options);
+/// Of a solution on the lattice. @param spacing_A the user's, which the message says how to change
+/// @throws MemoryError
+void require_pb_memory(const Lattice& lattice, double spacing_A, const PoissonBoltzmannOptions& options);
 /// @throws InputError (not cubic along the axes, too few points, an atom outside), MemoryError
 CubicLattice checked_pb_lattice(const Lattice& lattice, const std::vector<Vec3d>& positions,
                                 const PoissonBoltzmannOptions& options);

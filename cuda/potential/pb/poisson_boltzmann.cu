@@ -163,6 +163,7 @@ void set_border(const Problem& problem, const Lattice& on_lattice, const CubicLa
   }
   MapGrid around;
   around.lattice = wider_lattice(on_lattice, problem.atoms);
+  require_pb_memory(around.lattice, on_lattice.step[0].x, problem.options);  // of few atoms it is the larger grid
   set_index_transform(around.lattice, {}, "the wider grid", around.to_index);
   const CubicLattice wide = cubic_lattice(around.lattice);
   around.values.assign(wide.n_points(), 0.0F);

@@ -256,7 +256,7 @@ TEST_CASE("a molecule that Poisson-Boltzmann cannot take is refused by one line 
                  "espdiff: " + molecule + ": the Poisson-Boltzmann equation did not converge: the relative error is "));
   CHECK(contains(refused(other + " --pb-max-cycles 1", 1),
                  " after 1 cycles, 0.0001 is asked for; allow more cycles, or a larger tolerance\n"));
-  const std::string too_large = refused(other, 1, "0.03");
+  const std::string too_large = refused(other, 1, "0.018");
   CHECK(contains(too_large, "espdiff: " + molecule + ": a grid of "));
   CHECK(contains(too_large, " points needs "));
   CHECK(contains(too_large, " A would fit\n"));

@@ -14,9 +14,10 @@ using espdiff::DielectricSmoothing;
 
 namespace {
 
-/// APBS' definitions: smoothing over nine points.
+/// APBS' definitions: smoothing over nine points, and the border of its `mdh`.
 PoissonBoltzmannOptions apbs_options() {
   PoissonBoltzmannOptions options;
+  options.far_boundary = espdiff::FarBoundary::kDebyeHueckel;
   options.smoothing = DielectricSmoothing::kNinePoint;
   return options;
 }

@@ -199,7 +199,7 @@ TEST_CASE(
   const Molecule m = small_protein();
   const Lattice lattice = pb_lattice(m, 0.7, 6);
   PoissonBoltzmannOptions by_sum, by_focus;
-  by_focus.far_boundary = espdiff::FarBoundary::kFocus;
+  by_sum.far_boundary = espdiff::FarBoundary::kDebyeHueckel;
   for (const auto& engine : fast_back_ends()) {
     const auto on_lattice = [&](double padding, const PoissonBoltzmannOptions& options) {
       const Lattice own = pb_lattice(m, 0.7, padding);
