@@ -50,13 +50,15 @@ void link_bonded(const ResidueView& view, ChainLinks& links) {
     }
     for (const ChainEnd& e : ends) {
       const EndCell c = end_cell(e.place);
-      for (int k = 0; k < 27; ++k) {
-        const auto cell = begins.find({c[0] + k % 3 - 1, c[1] + k / 3 % 3 - 1, c[2] + k / 9 - 1});
-        if (cell == begins.end()) continue;
-        for (const ChainEnd& b : cell->second) {
-          const double distance = norm(b.place - e.place);
-          if (b.residue != e.residue && distance < kLongestBond_A)
-            candidates.emplace_back(distance, e.residue, b.residue);
+      for (int k = 0; k < 9; ++k) {
+        // Cells along z follow each other.
+        const EndCell first{c[0] + k % 3 - 1, c[1] + k / 3 - 1, c[2] - 1}, last{first[0], first[1], c[2] + 1};
+        for (auto cell = begins.lower_bound(first); cell != begins.end() && cell->first <= last; ++cell) {
+          for (const ChainEnd& b : cell->second) {
+            const double distance = norm(b.place - e.place);
+            if (b.residue != e.residue && distance < kLongestBond_A)
+              candidates.emplace_back(distance, e.residue, b.residue);
+          }
         }
       }
     }

@@ -71,6 +71,10 @@ class CancelScope {
     CancelRequest::of_thread() = &progress.cancel_requested_;
   }
   ~CancelScope() { CancelRequest::of_thread() = before_; }
+  /// Takes on another copy's: a library that is loaded has its own variable of each thread.
+  explicit CancelScope(const CancelRequest& request) : before_(CancelRequest::of_thread()) {
+    CancelRequest::of_thread() = request.flag_;
+  }
   CancelScope(const CancelScope&) = delete;
   CancelScope& operator=(const CancelScope&) = delete;
 

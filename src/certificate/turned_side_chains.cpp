@@ -50,6 +50,12 @@ struct AtomTurn {
   Eigen::Vector3d end;
 };
 
+/// How the bonds at an atom turned: the way that is nearer to the backbone's.
+struct BondTurn {
+  Rotation rotation;
+  bool is_named;  ///< whether each atom went to the place of its name, not to that of its equal
+};
+
 double degrees_between(const Rotation& a, const Rotation& b) {
   constexpr double kDegrees = 180 / kPi;
   return kDegrees * std::fabs(Eigen::AngleAxisd(a * b.transpose()).angle());
@@ -83,7 +89,9 @@ struct PairedResidue {
   }
 
   /// How an atom's bonds rotated, the way that is nearer to the backbone's; empty where its bonds do not say.
-  std::optional<AtomTurn> turn_of(const BothEnds& atom, const Rotation& backbone) const {
+  /// @param known [atom of the residue] of those around it, for the atoms that ask after it
+  std::optional<AtomTurn> turn_of(const BothEnds& atom, const Rotation& backbone,
+                                  std::vector<std::optional<BondTurn>>& known) const {
     const BothEnds* centre = &atom;
     std::vector<const BothEnds*> neighbours = heavy_neighbours(atom);
     if (neighbours.size() == 1) {
@@ -92,15 +100,24 @@ struct PairedResidue {
       neighbours = heavy_neighbours(*centre);
     }
     if (neighbours.size() < 2) return std::nullopt;
+    std::optional<BondTurn>& turn = known[static_cast<std::size_t>(centre - atoms.data())];
+    if (!turn) turn = bond_turn(*centre, neighbours, backbone);
+    return AtomTurn{turn->rotation, turn->is_named ? atom.end : atom.exchanged};
+  }
+
+ private:
+  static BondTurn bond_turn(const BothEnds& centre, const std::vector<const BothEnds*>& neighbours,
+                            const Rotation& backbone) {
     Eigen::Matrix3d as_named = Eigen::Matrix3d::Zero(), exchanged = Eigen::Matrix3d::Zero();
     for (const BothEnds* b : neighbours) {
-      as_named += (b->start - centre->start) * (b->end - centre->end).transpose();
-      exchanged += (b->start - centre->start) * (b->exchanged - centre->exchanged).transpose();
+      as_named += (b->start - centre.start) * (b->end - centre.end).transpose();
+      exchanged += (b->start - centre.start) * (b->exchanged - centre.exchanged).transpose();
     }
-    const AtomTurn named_turn{kabsch(as_named), atom.end}, exchanged_turn{kabsch(exchanged), atom.exchanged};
-    const bool is_named =
-        degrees_between(named_turn.rotation, backbone) <= degrees_between(exchanged_turn.rotation, backbone);
-    return is_named ? named_turn : exchanged_turn;
+    const Rotation named_turn = kabsch(as_named);
+    if (as_named == exchanged) return {named_turn, true};
+    const Rotation exchanged_turn = kabsch(exchanged);
+    const bool is_named = degrees_between(named_turn, backbone) <= degrees_between(exchanged_turn, backbone);
+    return {is_named ? named_turn : exchanged_turn, is_named};
   }
 };
 
@@ -234,9 +251,10 @@ std::vector<TurnedAtom> turned_atoms(const Molecule& source, const Molecule& tar
     }
     note_exchanges(residue_letter(source.residues[r].name), residues[r]);
     const bool is_whole = around[r] && degrees_between(*backbone, around[r]->rotation) > kLeastTurnDegrees;
+    std::vector<std::optional<BondTurn>> known(residues[r].atoms.size());
     for (const BothEnds& atom : residues[r].atoms) {
       const std::optional<AtomTurn> of_bonds =
-          is_of_backbone(atom.name) ? std::nullopt : residues[r].turn_of(atom, *backbone);
+          is_of_backbone(atom.name) ? std::nullopt : residues[r].turn_of(atom, *backbone, known);
       const bool is_side_chain = of_bonds && degrees_between(of_bonds->rotation, *backbone) > kLeastTurnDegrees;
       if (!is_whole && !is_side_chain) continue;
       turned[atom.atom] = {is_whole ? Turn::kResidue : Turn::kSideChain,

@@ -12,6 +12,11 @@ void* load_library(const std::string& name, LibraryUse use) {
   return dlopen(name.c_str(), flags);
 }
 
+std::string library_problem() {
+  const char* const text = dlerror();
+  return text == nullptr ? "unknown reason" : text;
+}
+
 void* find_symbol(void* library, const char* name) { return dlsym(library, name); }
 
 }  // namespace espdiff

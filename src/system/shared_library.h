@@ -18,6 +18,9 @@ void* load_library(const std::string& name, LibraryUse use);
 /// Null if the library has no such function.
 void* find_symbol(void* library, const char* name);
 
+/// Why the last load_library() of this thread failed, in the system's words.
+std::string library_problem();
+
 template <typename Function>
 Function find_function(void* library, const char* name) {
   return reinterpret_cast<Function>(find_symbol(library, name));

@@ -330,12 +330,6 @@ class Verifier {
 
 }  // namespace
 
-bool VerifiedLine::agrees() const { return std::fabs(recorded - recomputed) <= tolerance; }
-
-bool Verification::agrees() const {
-  return std::all_of(lines.begin(), lines.end(), [](const VerifiedLine& line) { return line.agrees(); });
-}
-
 Verification verify(const std::string& prefix) { return Verifier(prefix).run(); }
 
 }  // namespace espdiff

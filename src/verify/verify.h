@@ -1,6 +1,8 @@
 // verify.h: recomputes a result's numbers from its files, by other code than made them.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -11,13 +13,15 @@ struct VerifiedLine {
   std::string name;  ///< JSON pointer in OUT.json
   double recorded = 0, recomputed = 0;
   double tolerance = 0;  ///< in the number's unit
-  bool agrees() const;
+  bool agrees() const { return std::fabs(recorded - recomputed) <= tolerance; }
 };
 
 struct Verification {
   std::vector<VerifiedLine> lines;
   std::vector<std::string> not_recomputed;  ///< numbers, with the reason
-  bool agrees() const;
+  bool agrees() const {
+    return std::all_of(lines.begin(), lines.end(), [](const VerifiedLine& line) { return line.agrees(); });
+  }
 };
 
 /// Reads OUT.json and OUT.vtp, and the structures and maps that OUT.json names. Areas, metrics, distances, corrupt and

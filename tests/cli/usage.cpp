@@ -140,6 +140,50 @@ TEST_CASE("doctor finds the module where packages put it, and says how VMD does"
   }
 }
 
+TEST_CASE("the program starts without the libraries of its modules") {
+  const ScratchFolder folder;
+  REQUIRE(std::system(("LD_TRACE_LOADED_OBJECTS=1 " ESPDIFF_BINARY " >" + folder.file("out")).c_str()) == 0);
+  const std::string libraries = read_file(folder.file("out"));
+  CHECK(contains(libraries, "libstdc++"));
+  for (const char* library : {"libvtk", "libhdf5", "libX11", "libGL"})
+    CHECK_FALSE_MESSAGE(contains(libraries, library), libraries);
+}
+
+#if defined(ESPDIFF_HAVE_VTK)
+TEST_CASE("a module that is missing, damaged or of another version is one line with the remedy") {
+  const ScratchFolder folder;
+  const std::string root = folder.file("alone"), module = root + "/lib/espdiff/espdiff_vtk.so";
+  std::filesystem::create_directories(root + "/bin");
+  std::filesystem::create_directories(root + "/lib/espdiff");
+  std::filesystem::copy_file(ESPDIFF_BINARY, root + "/bin/espdiff");
+  const auto outcome = [&](const std::string& words) {
+    const int status =
+        std::system((root + "/bin/espdiff " + words + " >" + folder.file("out") + " 2>" + folder.file("err")).c_str());
+    return Outcome{WEXITSTATUS(status), read_file(folder.file("out")), read_file(folder.file("err"))};
+  };
+  const std::string part = "this program's part with VTK, for pictures and `verify`, " + module + ", ";
+  const std::string missing = part + "is missing; install espdiff as a whole, not the program alone\n";
+  for (const char* words : {"verify x", "view x.vtp", "render x.vtp -o x.png"}) {
+    const Outcome alone = outcome(words);
+    CHECK(alone.status == 1);
+    CHECK(alone.err == "espdiff: " + missing);
+  }
+  const std::string doctor = outcome("doctor").out;
+  CHECK_MESSAGE(contains(doctor, "render         --   " + missing), doctor);
+  if (contains(run_espdiff("doctor").out, "ensemble       ok"))
+    CHECK_MESSAGE(contains(doctor, "ensemble       --   this program's part with HDF5, for files of ensembles, "),
+                  doctor);
+  folder.write("alone/lib/espdiff/espdiff_vtk.so", "no library");
+  const std::string damaged = outcome("verify x").err;
+  CHECK_MESSAGE(damaged.compare(0, 9 + part.size() + 19, "espdiff: " + part + "cannot be loaded (/") == 0, damaged);
+  CHECK_MESSAGE(contains(damaged, "); install the libraries of VTK 9 that it was built with (Debian: "), damaged);
+  // Any library will do that lacks the function.
+  std::filesystem::copy_file(ESPDIFF_OTHER_LIBRARY, module, std::filesystem::copy_options::overwrite_existing);
+  CHECK(outcome("verify x").err ==
+        "espdiff: " + part + "is not of version " ESPDIFF_VERSION "; install espdiff as a whole again\n");
+}
+#endif
+
 TEST_CASE("an explicit cuda that is not there is an error, not a silent cpu run") {
   if (contains(run_espdiff("doctor").out, "cuda           ok")) {
     MESSAGE("SKIPPED: this machine has a CUDA device");

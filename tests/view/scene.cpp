@@ -6,10 +6,9 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "scene/scene_keys.h"
 #include "support/test_data.h"
 #include "support/text.h"
-#include "view/window/scene_keys.h"
-#include "view/window/viewer.h"
 
 using namespace espdiff;  // NOLINT: a test of these headers
 using espdiff_test::contains;

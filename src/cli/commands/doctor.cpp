@@ -15,6 +15,9 @@
 #include "io/frames/frame_reader.h"
 #include "io/frames/molfile_plugins.h"
 #include "prepare/charges/pdb2pqr.h"
+#if defined(ESPDIFF_HAVE_HDF5)
+#include "ensemble/file/hdf5_writer.h"
+#endif
 #if defined(ESPDIFF_HAVE_VTK)
 #include "view/display.h"
 #endif
@@ -83,7 +86,8 @@ int doctor_verb() {
   line("render", false, "VTK 9 was not found when this was built (Debian: libvtk9-dev)");
 #endif
 #if defined(ESPDIFF_HAVE_HDF5)
-  line("ensemble", true, "HDF5");
+  const std::string ensemble_problem = hdf5_problem();
+  line("ensemble", ensemble_problem.empty(), ensemble_problem.empty() ? "HDF5" : ensemble_problem);
 #else
   line("ensemble", false, "HDF5 was not found when this was built (Debian: libhdf5-dev)");
 #endif

@@ -9,6 +9,7 @@
 
 #include "cli/scene_options.h"
 #include "io/files/check_outputs.h"
+#include "scene/scene_keys.h"
 #include "view/window/viewer.h"
 #endif
 

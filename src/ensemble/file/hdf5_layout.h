@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/types.h"
+#include "ensemble/file/hdf5_writer.h"
 
 namespace espdiff {
 
@@ -16,11 +17,6 @@ struct TemplateSurface;
 
 /// Numbers of a frame, in the order of the file.
 const std::vector<std::string>& frame_columns();
-constexpr std::size_t kNoteBytes = 200;
-
-/// Fowler, Noll and Vo's hash (FNV-1a, 64 bits) over words of 32 bits, which finds any changed word.
-constexpr std::uint64_t kChecksumStart = 0xcbf29ce484222325ULL;
-std::uint64_t add_to_checksum(std::uint64_t sum, const void* bytes, std::size_t n);
 
 /// Byte offsets in the file.
 struct EnsembleLayout {

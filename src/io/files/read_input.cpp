@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/text/system_message.h"
 #include "io/files/file_kind.h"
 #include "io/files/sha256.h"
@@ -80,6 +81,7 @@ class InputStream {
     for (int waited_ms = 0; n_read < size;) {
       const bool is_readable = file_.wait_until_readable(kWaitMs);
       if (Interruption::is_asked()) throw Cancelled();
+      CancelRequest().check();
       waited_ms += kWaitMs;
       if (!is_readable && (has_writer_ || waited_ms < kWaitForWriterMs)) continue;
       std::size_t n = 0;

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/scene_keys.h"
 #include "view/drawings/legend.h"
 #include "view/scene_legend.h"
-#include "view/window/viewer.h"
 
 namespace espdiff {
 namespace {

@@ -19,6 +19,7 @@
 #include "base/formatted.h"
 #include "base/progress.h"
 #include "io/files/atomic_file.h"
+#include "scene/scene_keys.h"
 #include "view/comparison_scene.h"
 #include "view/display.h"
 #include "view/drawings/camera_view.h"
@@ -27,7 +28,6 @@
 #include "view/window/orbit_style.h"
 #include "view/window/overlay.h"
 #include "view/window/pick.h"
-#include "view/window/scene_keys.h"
 
 namespace espdiff {
 namespace {

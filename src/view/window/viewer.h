@@ -2,17 +2,10 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "scene/scene.h"
 
 namespace espdiff {
-
-/// A key of the viewer and what it does, for help and manual.
-struct ViewerKey {
-  std::string keys, help;
-};
-std::vector<ViewerKey> viewer_keys();
 
 /// Opens a window on a comparison and returns when it is closed. Picked points are also printed to standard output.
 /// @param saved_prefix pictures and scenes are saved as PREFIX.png and PREFIX.json, then PREFIX-2.png and so on

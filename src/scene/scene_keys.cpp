@@ -1,11 +1,9 @@
 // scene_keys.cpp: one table of keys, their actions and their help.
-#include "view/window/scene_keys.h"
+#include "scene/scene_keys.h"
 
 #include <algorithm>
 #include <functional>
 #include <vector>
-
-#include "view/window/viewer.h"
 
 namespace espdiff {
 namespace {
