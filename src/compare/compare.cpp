@@ -61,7 +61,7 @@ struct Series::Steps {
   }
 
   /// How far outside the surfaces potentials are read, or side chains may have other places.
-  double potential_reach_A() const {
+  double potential_reach() const {
     constexpr double kSideChain_A = 7;  // from CB to the last hydrogen of arginine
     const double read_A = *std::max_element(options.offsets_A.begin(), options.offsets_A.end());
     return options.side_chains > 0 ? std::max(read_A, kSideChain_A) : read_A;
@@ -73,7 +73,7 @@ struct Series::Steps {
     const PotentialUnit wanted = common_unit(source.input, target.input);
     const double temperature_K = options.temperature_K;
     const bool for_readings = !options.causes.empty();
-    const double reach_A = potential_reach_A();
+    const double reach_A = potential_reach();
     if (source.map.map == nullptr || wanted != unit) {
       source.map = device_map(engine, source.input, inverse(frame.from_source), {nullptr, for_readings, reach_A},
                               wanted, temperature_K, progress);
