@@ -60,7 +60,7 @@ void measure(espdiff::Engine& engine, const std::vector<espdiff::Molecule>& fram
   for (std::size_t f = run.every; f < frames.size(); f += run.every) {
     const espdiff::CompareResult result = series.step({&frames[f], nullptr}, run.start, {});
     run.rows.push_back(make_row(std::to_string(f), result));
-    run.n_from_previous += result.start == StartFrom::kPrevious ? 1 : 0;
+    run.n_from_previous += result.mapping.start == StartFrom::kPrevious ? 1 : 0;
   }
   run.processor_s = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
 }

@@ -79,8 +79,8 @@ PairRow make_row(const std::string& name, const espdiff::CompareResult& result) 
   row.name = name;
   row.rmsd_A = result.rmsd_A;
   row.n_vertices = static_cast<double>(result.surface.positions.size());
-  row.regularize_iterations = result.regularize_report.iterations;
-  row.deform_iterations = result.deform_report.iterations;
+  row.regularize_iterations = result.mapping.regularize.iterations;
+  row.deform_iterations = result.mapping.deform.iterations;
   row.converged = c.converged;
   row.corrupt_percent = 100 * c.corrupt_area_fraction;
   row.flipped_percent = 100 * c.flipped_area_fraction;
@@ -100,14 +100,14 @@ PairRow make_row(const std::string& name, const espdiff::CompareResult& result) 
   row.slip_beyond_2A_percent = 100 * slip.medium_area_fraction;
   row.slip_beyond_3A_percent = 100 * slip.large_area_fraction;
   row.trustworthy = c.trustworthy ? 1 : 0;
-  row.mapped_twice = result.other_mapping ? 1 : 0;
-  row.local_motions = result.domains_used == espdiff::kLocalMotions ? 1 : 0;
+  row.mapped_twice = result.mapping.other ? 1 : 0;
+  row.local_motions = result.mapping.domains == espdiff::kLocalMotions ? 1 : 0;
   row.round_trip_mean_A = row.round_trip_p95_A = std::numeric_limits<double>::quiet_NaN();
   if (c.round_trip) {
     row.round_trip_mean_A = c.round_trip->mean_A;
     row.round_trip_p95_A = c.round_trip->p95_A;
   }
-  row.steps = result.morph_report.steps;
+  row.steps = result.mapping.morph.steps;
   const espdiff::Metrics counted = espdiff::counted_metrics(result);
   row.mean_displacement_A = counted.mean_displacement_A;
   row.mean_path_length_A = counted.mean_path_length_A;

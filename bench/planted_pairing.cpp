@@ -22,7 +22,7 @@ struct Tally {
 };
 
 void judge(const std::string& label, const PlacedError& error, std::map<std::string, Tally>& tallies, double& seconds) {
-  espdiff::CompareResult result;
+  espdiff::Alignment result;
   const std::vector<std::string> warnings = warnings_of(error, result, &seconds);
   const bool right = is_judged_rightly(error, result, warnings);
   Tally& tally = tallies[error.kind];

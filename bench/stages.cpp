@@ -229,9 +229,9 @@ void compare(StageTimer& timer, const StageInputs& in, espdiff::Method method) {
   timer.counters["mean_distance_back_A"] = c.target_to_mapped.mean;
   timer.counters["trustworthy"] = c.trustworthy ? 1 : 0;
   timer.counters["intersecting_pairs"] = static_cast<double>(c.self_intersecting_pairs);
-  if (method == espdiff::Method::kDeform) timer.counters["deform_iterations"] = result.deform_report.iterations;
-  if (method == espdiff::Method::kMorph) timer.counters["morph_steps"] = result.morph_report.steps;
-  timer.counters["regularize_iterations"] = result.regularize_report.iterations;
+  if (method == espdiff::Method::kDeform) timer.counters["deform_iterations"] = result.mapping.deform.iterations;
+  if (method == espdiff::Method::kMorph) timer.counters["morph_steps"] = result.mapping.morph.steps;
+  timer.counters["regularize_iterations"] = result.mapping.regularize.iterations;
   timer.counters["converged"] = c.converged ? 1 : 0;
   for (const auto& [stage, ms] : result.time_ms) timer.counters["ms_" + stage] = ms;
 }

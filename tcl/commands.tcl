@@ -270,8 +270,7 @@ namespace eval ::espdiff {
 
     command merge [dict create arguments {states} settings none run ::espdiff::merge options [concat {
             {-output file required "Prefix of the results: OUT.csv and OUT.json, or OUT.h5"}
-            {-cluster-by text {} "Metric for clustering, as in `espdiff matrix`"}
-        } $replacing] \
+        } [study_options merge]] \
         summary {Merges the parts of a matrix: the state files of `espdiff matrix -shard`, with -template the HDF5 files
             too; or of an ensemble: the files
             of `espdiff ensemble -shard`, whose statistics `espdiff ensemble {} -from OUT.h5` computes. The results are

@@ -13,8 +13,7 @@ namespace eval ::espdiff {
         set paths {}
         foreach path [list_of $states "espdiff merge"] { lappend paths [existing_file $path "espdiff merge"] }
         set core [dict create output [file normalize [dict get $options output]]]
-        foreach key {overwrite cluster-by} { dict set core [string map {- _} $key] [dict get $options $key] }
-        return [core::merge $paths $core]
+        return [core::merge $paths [dict merge $core [study_values merge $options]]]
     }
 
     proc matrix_options {options} {

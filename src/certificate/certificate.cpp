@@ -7,6 +7,7 @@
 
 #include "base/formatted.h"
 #include "base/molecule/residue_label.h"
+#include "base/not_a_number.h"
 #include "base/text/short_numbers.h"
 #include "certificate/own_potentials.h"
 #include "certificate/slip.h"
@@ -42,14 +43,14 @@ bool disagrees(const std::optional<ResidueCheck>& check) {
 }
 
 /// "; most by ASN 248 of chain B (6.5 kT/e)"
-std::string most_disagreeing_residues(const CompareResult& result, const Molecule& source) {
+std::string most_disagreeing_residues(const MeasuredSurface& result, const Molecule& source) {
   constexpr std::size_t kMostNamed = 3;
   std::string names;
   const std::vector<const ResidueRow*> rows = most_disagreeing(result.residues);
   for (std::size_t k = 0; k < std::min(kMostNamed, rows.size()); ++k)
     names += (k == 0 ? "; most by " : ", ") + residue_label(source.residues[rows[k]->residue]) + " (" +
              short_number(std::fabs(rows[k]->mean_signed_difference - rows[k]->own_difference)) + " " +
-             to_string(result.unit) + ")";
+             to_string(result.potential.unit) + ")";
   return names;
 }
 
@@ -78,18 +79,30 @@ RemovedArea removed_area(Engine& engine, const Mapping& mapping) {
 
 }  // namespace
 
-Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& target) {
+Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& target, const MeshPtr& reached) {
+  const DistanceSummary nothing{kNaN, kNaN, kNaN, kNaN, kNaN, nullptr};
   Certificate c;
+  c.target_to_mapped = nothing;
+  c.unmatched_target = target != nullptr ? 1 : kNaN;
+  if (mapping.matched == nullptr) {
+    c.corrupt_area_fraction = c.flipped_area_fraction = c.irregularity_A = kNaN;
+    c.mapped_to_target = nothing;
+    c.distortion = {kNaN, kNaN, kNaN, kNaN, kNaN, nullptr};
+    c.unmatched_source = mapping.source != nullptr ? 1 : kNaN;
+    return c;
+  }
   c.corrupt_area_fraction = mapping.fit.corrupt_area_fraction;
   c.flipped_area_fraction = mapping.fit.flipped_area_fraction;
   c.irregularity_A = mapping.fit.irregularity_A;
   c.mapped_to_target = numbers_of(mapping.to_target);
   c.distortion = mapping.distortion;
-  c.target_to_mapped = numbers_of(engine.distances(target, mapping.matched, kMatchLimit_A));
   c.self_intersecting_pairs = mapping.intersections.n_pairs;
   const double kept = engine.area(mapping.matched_source) / engine.area(mapping.source);
   c.unmatched_source = 1 - kept * (1 - c.mapped_to_target.area_fraction_beyond_limit);
-  c.unmatched_target = c.target_to_mapped.area_fraction_beyond_limit;
+  if (target != nullptr) {
+    c.target_to_mapped = numbers_of(engine.distances(target, reached, kMatchLimit_A));
+    c.unmatched_target = c.target_to_mapped.area_fraction_beyond_limit;
+  }
   c.removed = removed_area(engine, mapping);
   c.zero_by_construction = !mapping.removed_for.empty();
   return c;
@@ -165,9 +178,10 @@ std::string shares_not_trusted(const TrustedArea& trusted) {
   return text.empty() ? text : "; of the source " + text;
 }
 
-void judge(CompareResult& result, const Molecule& source, double required_share) {
-  Certificate& c = result.certificate;
-  for (const Warning& warning : result.warnings) {
+void judge(MeasuredSurface& surface, const std::vector<Warning>& warnings, const Molecule& source,
+           double required_share) {
+  Certificate& c = surface.certificate;
+  for (const Warning& warning : warnings) {
     if (warning.refuses) c.reasons.push_back(warning.text);
   }
   const auto refuse_all = [&](const std::vector<Message>& reasons) {
@@ -185,7 +199,7 @@ void judge(CompareResult& result, const Molecule& source, double required_share)
              number_beside(c.residues ? c.residues->correlation : 0, Limits::kResidueCorrelation, 2) +
              " with those of each residue's potentials on its own surfaces (limit " +
              formatted("%.2f", Limits::kResidueCorrelation) + ")" +
-             (disagrees(c.residues) ? most_disagreeing_residues(result, source) : ""));
+             (disagrees(c.residues) ? most_disagreeing_residues(surface, source) : ""));
   refuse(!(c.trusted.share() >= required_share),
          percent(c.trusted.source) + " of the source's surface and " + percent(c.trusted.target) +
              " of the target's are trusted (limit " + percent(required_share) + ")" + shares_not_trusted(c.trusted));

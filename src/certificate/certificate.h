@@ -7,11 +7,13 @@
 
 namespace espdiff {
 
-struct CompareResult;
 struct MappedSurface;
 
-/// Distances in both directions, intersecting triangles, and the fit of the mapped mesh; no verdict yet.
-Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& target);
+/// Distances in both directions, intersecting triangles, and the fit of the mapped mesh, of a whole mapping or a part
+/// of it (part_of_mapping()); no verdict yet. What nothing was mapped for is NaN, since zeros would flatter.
+/// @param target  the surface that the mapping is to cover; null where the part has none
+/// @param reached the matched surface from which the target's distances are measured: the whole mapping's
+Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& target, const MeshPtr& reached);
 
 /// Fraction of the area at vertices whose target residue is paired with their source residue; NaN if no residues pair.
 /// @param source_residue, target_residue [vertex] from Engine::vertex_residues()
@@ -26,7 +28,9 @@ std::vector<Message> fit_reasons(const Certificate& certificate);
 std::vector<Message> unmatched_reasons(const Certificate& certificate);
 
 /// Sets the certificate's `trustworthy` and `reasons`, from its trusted area among others.
+/// @param warnings of the inputs; those that refuse are reasons
 /// @param required_share of both surfaces that has to be trusted
-void judge(CompareResult& result, const Molecule& source, double required_share);
+void judge(MeasuredSurface& surface, const std::vector<Warning>& warnings, const Molecule& source,
+           double required_share);
 
 }  // namespace espdiff

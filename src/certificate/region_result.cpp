@@ -32,31 +32,37 @@ std::vector<float> outside_of(const std::vector<Triangle>& triangles, const std:
 }
 
 /// The RMSD of the part's paired atoms after the superposition; NaN without such atoms.
-double rmsd_of(const SurfacePart& part, const CompareResult& whole, const Molecule& source, const Molecule& target) {
+double rmsd_of(const SurfacePart& part, const WholeMapping& whole) {
   double sum = 0;
   std::size_t n = 0;
-  for (const auto& [s, t] : whole.pairing.pairs) {
-    if (part.source[static_cast<std::size_t>(source.atoms[s].residue)] == 0) continue;
-    const double d = norm(whole.source_to_target.apply(source.positions[s]) - target.positions[t]);
+  for (const auto& [s, t] : whole.alignment.pairing.pairs) {
+    if (part.source[static_cast<std::size_t>(whole.source.atoms[s].residue)] == 0) continue;
+    const double d =
+        norm(whole.alignment.source_to_target.apply(whole.source.positions[s]) - whole.target.positions[t]);
     sum += d * d;
     ++n;
   }
   return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// What is left of a mesh; null where nothing is.
-MeshPtr cut(Engine& engine, const MeshPtr& mesh, const std::vector<float>& excluded) {
-  if (std::all_of(excluded.begin(), excluded.end(), [](float flag) { return flag != 0; })) return nullptr;
-  return engine.without(mesh, engine.upload_scalars(excluded));
+/// The target's surface of the residues that pair with the part's; null where there is none.
+MeshPtr target_part(const SurfacePart& part, const WholeMapping& whole) {
+  const Surface& target = whole.target_surface;
+  const Mesh shape = whole.engine.download_shape(target.mesh);
+  const std::vector<std::int32_t> residues = whole.engine.vertex_residues(target.mesh, target.atoms);
+  return what_is_left(whole.engine, target.mesh, outside_of(shape.triangles, vertices_of(residues, part.target)));
 }
 
-DistanceSummary nothing() { return {kNaN, kNaN, kNaN, kNaN, kNaN, nullptr}; }
-
-/// What nothing was mapped for cannot be measured; zeros would flatter.
-void set_nothing_mapped(Certificate& c) {
-  c.corrupt_area_fraction = c.flipped_area_fraction = c.irregularity_A = kNaN;
-  c.mapped_to_target = nothing();
-  c.distortion = {kNaN, kNaN, kNaN, kNaN, kNaN, nullptr};
+/// Which of the mapped surface is on the same residue, of the part.
+double same_residue_share_of(const SurfacePart& part, const WholeMapping& whole) {
+  MappedSurface of_part;
+  of_part.positions = whole.surface.positions;
+  of_part.triangles = whole.surface.triangles;
+  const std::vector<float>& unmatched = whole.mapping.unmatched;
+  for (std::size_t t = 0; t < part.outside.size(); ++t)
+    of_part.unmatched.push_back(part.outside[t] != 0 || (!unmatched.empty() && unmatched[t] != 0) ? 1 : 0);
+  return same_residue_share(of_part, surface_areas(of_part), whole.surface.residue, whole.surface.target_residue,
+                            whole.target_of);
 }
 
 }  // namespace
@@ -88,66 +94,28 @@ SurfacePart make_part(const std::vector<std::uint8_t>& inside, std::vector<std::
   return part;
 }
 
-std::shared_ptr<CompareResult> part_result(Engine& engine, const SurfacePart& part, const Mapping& mapping,
-                                           const Surface& target, float isovalue,
-                                           const std::vector<std::int32_t>& source_residue,
-                                           const std::vector<std::int32_t>& mapped_residue,
-                                           const std::vector<std::int32_t>& target_of, const CompareResult& whole,
-                                           const Molecule& source_molecule, const Molecule& target_molecule) {
-  auto result = std::make_shared<CompareResult>();
-  result->has_potential = whole.has_potential;
-  result->unit = whole.unit;
-  result->morph_report = whole.morph_report;
-  result->deform_report = whole.deform_report;
-  result->rmsd_A = rmsd_of(part, whole, source_molecule, target_molecule);
-  Certificate& c = result->certificate;
+PartResult part_result(const WholeMapping& whole, const SurfacePart& part) {
+  Engine& engine = whole.engine;
+  const Mapping of_part = part_of_mapping(engine, whole.mapping, part.outside, whole.target_surface.atoms,
+                                          whole.target_surface.mesh, whole.isovalue);
+  const MeshPtr target = target_part(part, whole);
+  PartResult result;
+  result.rmsd_A = rmsd_of(part, whole);
+  result.source_surface.area_A2 = of_part.source != nullptr ? engine.area(of_part.source) : 0;
+  result.target_surface.area_A2 = target != nullptr ? engine.area(target) : 0;
+  result.area_mapped_A2 = of_part.fit.area_A2;
+  Certificate& c = result.certificate = certify(engine, of_part, target, whole.mapping.matched);
   c.converged = whole.certificate.converged;
   c.not_checked = unchecked_in_parts();
   c.zero_by_construction = whole.certificate.zero_by_construction;
-  std::vector<float> excluded = part.outside;
-  for (std::size_t t = 0; t < mapping.unmatched.size(); ++t) excluded[t] = std::max(excluded[t], mapping.unmatched[t]);
-  const MeshPtr source = cut(engine, mapping.source, part.outside), matched = cut(engine, mapping.mapped, excluded),
-                matched_source = cut(engine, mapping.source, excluded);
-  const Mesh target_shape = engine.download_shape(target.mesh);
-  const MeshPtr target_part = cut(
-      engine, target.mesh,
-      outside_of(target_shape.triangles, vertices_of(engine.vertex_residues(target.mesh, target.atoms), part.target)));
-  result->source_surface.area_A2 = source != nullptr ? engine.area(source) : 0;
-  result->target_surface.area_A2 = target_part != nullptr ? engine.area(target_part) : 0;
-  if (matched != nullptr) {
-    const FitReport fit = engine.fit(matched, target.atoms, isovalue);
-    c.corrupt_area_fraction = fit.corrupt_area_fraction;
-    c.flipped_area_fraction = fit.flipped_area_fraction;
-    c.irregularity_A = fit.irregularity_A;
-    result->area_mapped_A2 = fit.area_A2;
-    c.mapped_to_target = numbers_of(engine.distances(matched, target.mesh, kMatchLimit_A));
-    c.distortion = engine.distortion(matched_source, matched, kAreaRatioLimit);
-    c.self_intersecting_pairs = engine.self_intersections(matched).n_pairs;
-    const double kept = engine.area(matched_source) / engine.area(source);
-    c.unmatched_source = 1 - kept * (1 - c.mapped_to_target.area_fraction_beyond_limit);
-  } else {
-    set_nothing_mapped(c);
-    c.unmatched_source = source != nullptr ? 1 : kNaN;
-  }
-  c.target_to_mapped = nothing();
-  c.unmatched_target = target_part != nullptr ? 1 : kNaN;
-  if (target_part != nullptr && matched != nullptr) {
-    c.target_to_mapped = numbers_of(engine.distances(target_part, mapping.matched, kMatchLimit_A));
-    c.unmatched_target = c.target_to_mapped.area_fraction_beyond_limit;
-  }
-  MappedSurface of_part;
-  of_part.positions = whole.surface.positions;
-  of_part.triangles = whole.surface.triangles;
-  for (const float flag : excluded) of_part.unmatched.push_back(flag != 0 ? 1 : 0);
-  c.same_residue_area_fraction =
-      same_residue_share(of_part, surface_areas(of_part), source_residue, mapped_residue, target_of);
+  c.same_residue_area_fraction = same_residue_share_of(part, whole);
   return result;
 }
 
-bool judge_missing_part(CompareResult& part, const PatchPlacement* placement) {
+bool judge_missing_part(PartResult& part) {
   Certificate& c = part.certificate;
   const bool buried = !(part.source_surface.area_A2 > 0), unmatched = !(part.area_mapped_A2 > 0);
-  if (buried && placement != nullptr) {
+  if (buried && part.placement != nullptr) {
     c.reasons.emplace_back("no place of it was found on the source's surface");
   } else if (buried) {
     c.reasons.emplace_back("it has no surface: its residues are buried in the source");
@@ -158,27 +126,24 @@ bool judge_missing_part(CompareResult& part, const PatchPlacement* placement) {
   return buried || unmatched;
 }
 
-void judge_placement(CompareResult& part, const PatchPlacement& placement) {
-  if (placement.found_area_fraction >= kLeastFoundArea) return;
+void judge_placement(PartResult& part) {
+  if (part.placement == nullptr || part.placement->found_area_fraction >= kLeastFoundArea) return;
   Certificate& c = part.certificate;
-  c.reasons.push_back(percent(placement.found_area_fraction) +
+  c.reasons.push_back(percent(part.placement->found_area_fraction) +
                       " of the earlier patch's area has a place on the source (at least " + percent(kLeastFoundArea) +
                       ")");
   c.trustworthy = false;
 }
 
-const CompareResult* part_of(const CompareResult& result, const std::string& name) {
-  if (name == kRegionPart) return result.region.get();
-  for (const PatchResult& patch : result.patches) {
-    if (patch.name == name) return patch.result.get();
-  }
-  return nullptr;
+const PartResult* part_of(const CompareResult& result, const std::string& name) {
+  const auto found =
+      std::find_if(result.parts.begin(), result.parts.end(), [&](const PartResult& part) { return part.name == name; });
+  return found == result.parts.end() ? nullptr : &*found;
 }
 
 std::vector<std::string> part_names(const CompareResult& result) {
   std::vector<std::string> names;
-  if (result.region != nullptr) names.emplace_back(kRegionPart);
-  for (const PatchResult& patch : result.patches) names.push_back(patch.name);
+  for (const PartResult& part : result.parts) names.push_back(part.name);
   return names;
 }
 

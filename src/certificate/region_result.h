@@ -10,12 +10,13 @@
 
 namespace espdiff {
 
-struct AtomPairing;
+struct Alignment;
+struct Certificate;
 struct CompareResult;
 struct MappedSurface;
 struct Mapping;
 struct Molecule;
-struct PatchPlacement;
+struct PartResult;
 struct Surface;
 
 /// Which part of a mapping a region or patch is.
@@ -40,25 +41,32 @@ SurfacePart make_part(const std::vector<std::uint8_t>& inside, std::vector<std::
 std::vector<std::uint8_t> vertices_of(const std::vector<std::int32_t>& vertex_residue,
                                       const std::vector<std::uint8_t>& marked);
 
+/// The mapping that a part is cut from.
+struct WholeMapping {
+  Engine& engine;
+  const Mapping& mapping;
+  const Surface& target_surface;
+  float isovalue;
+  const MappedSurface& surface;
+  const Certificate& certificate;
+  const Alignment& alignment;
+  const Molecule &source, &target;
+  const std::vector<std::int32_t>& target_of;  ///< [source residue] from paired_residues()
+};
+
 /// The part's shape, fit and certificate, as those of the whole: areas, unmatched parts, distances both ways; not yet
 /// judged, and without metrics of potentials. On the target's side the part is the surface of the residues that pair.
 /// Where nothing of it has a counterpart, what describes the mapping is NaN.
-std::shared_ptr<CompareResult> part_result(Engine& engine, const SurfacePart& part, const Mapping& mapping,
-                                           const Surface& target, float isovalue,
-                                           const std::vector<std::int32_t>& source_residue,
-                                           const std::vector<std::int32_t>& mapped_residue,
-                                           const std::vector<std::int32_t>& target_of, const CompareResult& whole,
-                                           const Molecule& source_molecule, const Molecule& target_molecule);
+PartResult part_result(const WholeMapping& whole, const SurfacePart& part);
 
 /// The verdict on a part without surface, or unmatched as a whole; no verdict on others.
-/// @param placement of an earlier patch; null for others
 /// @returns whether there is one
-bool judge_missing_part(CompareResult& part, const PatchPlacement* placement);
+bool judge_missing_part(PartResult& part);
 /// Refuses an earlier patch of which too little was found.
-void judge_placement(CompareResult& part, const PatchPlacement& placement);
+void judge_placement(PartResult& part);
 
 /// The numbers of the region (kRegionPart) or of a patch; null where there is none of that name.
-const CompareResult* part_of(const CompareResult& result, const std::string& name);
+const PartResult* part_of(const CompareResult& result, const std::string& name);
 /// The names of all parts: the region, then patches.
 std::vector<std::string> part_names(const CompareResult& result);
 

@@ -28,6 +28,7 @@ struct Causes;
 struct InterfaceComparison;
 struct MapCheck;
 struct MapRecipe;
+struct PatchPlacement;
 
 /// Per-residue averages over the trusted mapped surface, source residues. Area-weighted; NaN if a residue has none. The
 /// slip is that of all matched surface, since what slipped is not trusted.
@@ -72,7 +73,7 @@ struct RoundTrip {
 /// The mapping that was not kept where a pair was mapped twice; see choose_motions.h.
 struct OtherMapping {
   std::string because;           ///< why the kept one was kept
-  std::string domains;           ///< as CompareResult::domains_used
+  std::string domains;           ///< as MappingReport::domains
   std::vector<Message> reasons;  ///< the limits of fit and slip that it exceeds
   double slip_area_fraction = 0, same_residue_area_fraction = 0;
   double unmatched_source = 0, unmatched_target = 0;
@@ -164,56 +165,79 @@ struct Warning {
   bool refuses = false;  ///< whether no result of these inputs is trustworthy
 };
 
-struct CompareResult;
-struct PatchPlacement;
-
-/// What a patch has of the numbers.
-struct PatchResult {
-  std::string name;
-  std::shared_ptr<CompareResult> result;
-  std::shared_ptr<const PatchPlacement> placement{};  ///< of an earlier patch: how its place was found
-};
-
-struct CompareResult : Alignment {
-  std::vector<Warning> warnings;
+/// What was found out about the two states before they were mapped.
+struct InputReport {
+  std::vector<Warning> warnings;       ///< those of later stages come last
   std::vector<ComparedChains> chains;  ///< which were compared with which
   /// Chains that repeat one sequence, by name.
   std::vector<std::vector<std::string>> source_copies, target_copies;
   /// Between charged molecules: residues whose protonation makes a difference by itself.
   std::vector<ProtonationDifference> protonation;
   /// Lines of the printed table on where charges and radii came from: label, text.
-  std::vector<std::pair<std::string, std::string>> input_lines;
-  std::optional<OtherMapping> other_mapping;  ///< empty if the pair was mapped once
-  bool has_potential = false;
-  std::string shapes_because;  ///< why there is none, where nobody asked for shapes alone
-  PotentialUnit unit = PotentialUnit::kUnknown;
-  std::vector<OffsetMetrics> by_offset;                           ///< [offset of the options]; empty without potentials
+  std::vector<std::pair<std::string, std::string>> lines;
+  std::string shapes_because;  ///< why there are no potentials, where nobody asked for shapes alone
+};
+
+/// Where both potentials came from.
+struct ComparedMaps {
   std::shared_ptr<const MapRecipe> source_recipe, target_recipe;  ///< of potentials that were computed, otherwise null
-  std::shared_ptr<const MapCheck> source_map_check, target_map_check;  ///< of given maps; null where not checked
-  Metrics metrics;                                                     ///< over trusted triangles
-  Metrics metrics_all;                                                 ///< over all triangles with samples
-  std::size_t n_outside_source_map = 0, n_outside_target_map = 0;      ///< vertices
-  SurfaceSummary source_surface, target_surface;
-  double area_mapped_A2 = 0;
-  Certificate certificate;
+  std::shared_ptr<const MapCheck> source_check, target_check;     ///< of given maps; null where not checked
+};
+
+/// How the source's surface was mapped onto the target's.
+struct MappingReport {
   StartFrom start = StartFrom::kSource;  ///< where the mapping started
-  DeformReport regularize_report, deform_report;
-  VectorFlowReport flow_report;           ///< of the fields gvf and gvf2
+  /// The value of the setting `domains` that it followed: with `as-needed`, `none` or `local`.
+  std::string domains = "none";
+  DeformReport regularize, deform;
+  VectorFlowReport flow;                  ///< of the fields gvf and gvf2
   std::size_t n_vertices_subdivided = 0;  ///< added by deform with `subdivide`
-  MorphReport morph_report;
+  MorphReport morph;
+  std::optional<OtherMapping> other;  ///< empty if the pair was mapped once
+};
+
+/// The potentials' difference over one surface.
+struct PotentialComparison {
+  bool compared = false;  ///< whether there are potentials; nothing else holds without
+  PotentialUnit unit = PotentialUnit::kUnknown;
+  std::vector<OffsetMetrics> by_offset;                            ///< [offset of the options]
+  Metrics metrics;                                                 ///< over trusted triangles
+  Metrics metrics_all;                                             ///< over all triangles with samples
+  std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
+};
+
+/// What is measured of a surface: the whole one, its region, or a patch.
+struct MeasuredSurface {
+  double rmsd_A = 0;                              ///< of its paired atoms, after the superposition of the whole
+  SurfaceSummary source_surface, target_surface;  ///< of a part, the areas only
+  double area_mapped_A2 = 0;
+  int n_steps = 0;  ///< of the morph, or iterations of deform
+  PotentialComparison potential;
+  Certificate certificate;
   std::vector<ResidueRow> residues;
-  std::vector<FieldResult> fields;                          ///< besides the potential, in the order of the request
-  std::vector<FieldPatches> field_patches;                  ///< in the order of the request
-  std::shared_ptr<const InterfaceComparison> interface {};  ///< null unless one was asked for
+  std::vector<FieldResult> fields;  ///< besides the potential, in the order of the request
+};
+
+/// A region or patch, without vertices. The round trip, slip and the correlation by residue are not checked for it
+/// alone.
+struct PartResult : MeasuredSurface {
+  std::string name;                                   ///< kRegionPart, or the patch's
+  std::shared_ptr<const PatchPlacement> placement{};  ///< of an earlier patch: how its place was found
+};
+
+/// The whole comparison, by the stages that return each member.
+struct CompareResult : MeasuredSurface {
+  Alignment alignment;
+  InputReport inputs;
+  ComparedMaps maps;
+  MappingReport mapping;
   MappedSurface surface;
-  UncoveredSurface uncovered;                           ///< of the target
-  std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order; "total" last
-  /// The same numbers, certificate and residues of the region alone, without vertices; null without a region. Its RMSD
-  /// is that of its atoms after the whole superposition. The round trip, slip and the correlation by residue are not
-  /// checked for it alone.
-  std::shared_ptr<CompareResult> region{};
-  std::shared_ptr<const Causes> causes{};  ///< which charges make the readings that were asked for; null without any
-  std::vector<PatchResult> patches{};      ///< the same of each patch, in the order of the request
+  UncoveredSurface uncovered;               ///< of the target
+  std::vector<FieldPatches> field_patches;  ///< in the order of the request
+  std::vector<PartResult> parts;            ///< the region, if there is one, then the patches as requested
+  std::shared_ptr<const Causes> causes{};   ///< which charges make the readings that were asked for; null without any
+  std::shared_ptr<const InterfaceComparison> interface {};  ///< null unless one was asked for
+  std::vector<std::pair<std::string, double>> time_ms;      ///< stage, in order; "total" last
 };
 
 }  // namespace espdiff

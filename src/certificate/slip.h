@@ -1,9 +1,11 @@
 // slip.h: the slip of a mapping over its area.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/molecule/rigid_domain.h"
 #include "certificate/result.h"
 
 namespace espdiff {
@@ -26,12 +28,13 @@ SlipSummary summarize_slip(const MappedSurface& surface, const std::vector<doubl
 /// agree have 5 % and more.
 constexpr double kMostSlippedArea = 0.08, kMostSlippedAreaOfLocalMotions = 0.04;
 
-/// Which limits of the slip a mapping exceeds, so that it is tried again (choose_motions.h): over the whole area (the
-/// limit depends on CompareResult::domains_used), in a chain or rigid domain, at a ligand. Each names where.
-/// @param result with its residues' rows
-std::vector<Message> slip_reasons(const CompareResult& result, const Molecule& source);
+/// Which limits of the slip a mapping exceeds, so that it is tried again (choose_motions.h): over the whole area, in a
+/// chain or rigid domain, at a ligand. Each names where.
+/// @param follows_local whether the mapping followed local motions, which have a limit of their own
+std::vector<Message> slip_reasons(const std::optional<SlipSummary>& slip, const std::vector<ResidueRow>& rows,
+                                  const std::vector<RigidDomain>& domains, bool follows_local, const Molecule& source);
 
 /// The residues that slipped by more than kLargeSlip_A on average, farthest first: "ARG 247 of chain B (8.5 A)".
-std::vector<std::string> slipped_residues(const CompareResult& result, const Molecule& source);
+std::vector<std::string> slipped_residues(const std::vector<ResidueRow>& rows, const Molecule& source);
 
 }  // namespace espdiff

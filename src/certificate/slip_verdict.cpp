@@ -42,10 +42,11 @@ std::string most_at(const std::vector<std::string>& residues) {
   return names.empty() ? names : "; most at " + names;
 }
 
-std::vector<Part> parts_of(const CompareResult& result, const Molecule& source, const std::vector<ResidueKind>& kinds) {
+std::vector<Part> parts_of(const std::vector<ResidueRow>& rows, const std::vector<RigidDomain>& domains,
+                           const Molecule& source, const std::vector<ResidueKind>& kinds) {
   std::map<std::string, Part> chains;
   std::vector<Part> parts;
-  for (const ResidueRow& row : result.residues) {
+  for (const ResidueRow& row : rows) {
     const Residue& residue = source.residues[row.residue];
     if (kinds[row.residue] == ResidueKind::kOther) {
       parts.push_back({residue_label(residue)});
@@ -59,9 +60,9 @@ std::vector<Part> parts_of(const CompareResult& result, const Molecule& source, 
   if (chains.size() > 1) {
     for (const auto& [name, chain] : chains) parts.push_back(chain);
   }
-  for (std::size_t k = 0; result.domains.size() > 1 && k < result.domains.size(); ++k) {
+  for (std::size_t k = 0; domains.size() > 1 && k < domains.size(); ++k) {
     Part domain{"domain " + std::to_string(k + 1)};
-    for (const std::size_t r : result.domains[k].residues) domain.add(result.residues[r]);
+    for (const std::size_t r : domains[k].residues) domain.add(rows[r]);
     parts.push_back(domain);
   }
   return parts;
@@ -69,30 +70,31 @@ std::vector<Part> parts_of(const CompareResult& result, const Molecule& source, 
 
 }  // namespace
 
-std::vector<std::string> slipped_residues(const CompareResult& result, const Molecule& source) {
-  std::vector<const ResidueRow*> rows;
-  for (const ResidueRow& row : result.residues) {
-    if (row.matched_area_A2 >= kLeastJudgedArea_A2 && row.mean_slip_A > kLargeSlip_A) rows.push_back(&row);
+std::vector<std::string> slipped_residues(const std::vector<ResidueRow>& rows, const Molecule& source) {
+  std::vector<const ResidueRow*> slipped;
+  for (const ResidueRow& row : rows) {
+    if (row.matched_area_A2 >= kLeastJudgedArea_A2 && row.mean_slip_A > kLargeSlip_A) slipped.push_back(&row);
   }
-  std::stable_sort(rows.begin(), rows.end(),
+  std::stable_sort(slipped.begin(), slipped.end(),
                    [](const ResidueRow* a, const ResidueRow* b) { return a->mean_slip_A > b->mean_slip_A; });
   std::vector<std::string> names;
-  names.reserve(rows.size());
-  for (const ResidueRow* row : rows)
+  names.reserve(slipped.size());
+  for (const ResidueRow* row : slipped)
     names.push_back(residue_label(source.residues[row->residue]) + " (" + angstrom(row->mean_slip_A) + ")");
   return names;
 }
 
-std::vector<Message> slip_reasons(const CompareResult& result, const Molecule& source) {
+std::vector<Message> slip_reasons(const std::optional<SlipSummary>& slip, const std::vector<ResidueRow>& rows,
+                                  const std::vector<RigidDomain>& domains, bool follows_local, const Molecule& source) {
   std::vector<Message> reasons;
-  if (!result.certificate.slip) return reasons;
-  const double most_slipped = result.domains_used == kLocalMotions ? kMostSlippedAreaOfLocalMotions : kMostSlippedArea;
-  const double large = result.certificate.slip->large_area_fraction;
+  if (!slip) return reasons;
+  const double most_slipped = follows_local ? kMostSlippedAreaOfLocalMotions : kMostSlippedArea;
+  const double large = slip->large_area_fraction;
   const std::string beyond = " slipped by more than " + angstrom(kLargeSlip_A) + " from its own atoms (limit ";
   if (large > most_slipped)
     reasons.emplace_back(percent(large) + " of the mapped area" + beyond + percent(most_slipped) + ")" +
-                         most_at(slipped_residues(result, source)));
-  for (const Part& part : parts_of(result, source, residue_kinds(source, atoms_of_residues(source)))) {
+                         most_at(slipped_residues(rows, source)));
+  for (const Part& part : parts_of(rows, domains, source, residue_kinds(source, atoms_of_residues(source)))) {
     if (part.area < kLeastJudgedArea_A2) continue;
     if (part.n_residues >= kLeastResidues && part.large > kMostSlippedPart * part.area) {
       reasons.emplace_back(percent(part.large / part.area) + " of the mapped area of " + part.name + beyond +

@@ -214,7 +214,7 @@ TurnedArea turned_area(const MappedSurface& s, const SurfaceAreas& areas, const 
 }
 
 WholeSurface whole_surface(const CompareResult& result) {
-  if (!result.has_potential || !(result.metrics.area_A2 > 0)) return {kNaN, kNaN};
+  if (!result.potential.compared || !(result.potential.metrics.area_A2 > 0)) return {kNaN, kNaN};
   const MappedSurface& s = result.surface;
   double largest = 0;
   for (std::size_t v = 0; v < s.potential_source.size(); ++v) {
@@ -241,7 +241,7 @@ WholeSurface whole_surface(const CompareResult& result) {
     mapped += row.area_A2 * row.mean_abs_difference;
     own += row.area_A2 * std::fabs(row.own_difference);
   }
-  const double mean = result.metrics.mean_abs_difference, ratio = own > 0 ? mapped / own : 1;
+  const double mean = result.potential.metrics.mean_abs_difference, ratio = own > 0 ? mapped / own : 1;
   const double of_rest = ratio * estimated + (left_out - known) * mean;
   return {((all - left_out) * mean + of_rest) / all, ((all - left_out) * mean + left_out * largest) / all};
 }

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "system/standard_streams.h"
+#include "system/this_process.h"
 
 namespace espdiff::cli {
 namespace {
@@ -34,11 +35,13 @@ TerminalProgress::~TerminalProgress() {
 }
 
 void TerminalProgress::draw(const std::string& stage, double fraction) {
+  const bool is_new = stage != stage_;
+  stage_ = stage;
+  if (is_new) keep_larger_arrays_apart();
   if (!is_terminal_) return;
   const auto now = std::chrono::steady_clock::now();
-  if (stage == stage_ && now - last_draw_ < kRedrawInterval) return;
+  if (!is_new && now - last_draw_ < kRedrawInterval) return;
   last_draw_ = now;
-  stage_ = stage;
   const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kBarWidth);
   const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
                           std::string(static_cast<std::size_t>(kBarWidth - filled), '.');

@@ -2,17 +2,17 @@
 // better one of the two is kept.
 #pragma once
 
-#include "compare/mapped_step.h"
+#include "compare/stages/mapped_step.h"
 
 namespace espdiff {
 
 /// Whether a mapping is refused by its slip, so that local motions may map better.
-bool slips(const CompareResult& result, const Molecule& source);
+bool slips(const MappedStep& step, const StatesToMap& states);
 
 /// Whether the mapping by the superposition of the whole slips most likely: one of the paired atoms ends farther than
 /// 16 A from where it starts, and more than 1 % farther than 10 A. Of 110 ordered pairs of ubiquitin it holds for 71 of
 /// the 76 that slip, and for 8 of the others.
-bool will_slip(const Molecule& source, const Molecule& target, const AtomPairing& pairing, const CommonFrame& frame);
+bool will_slip(const StatesToMap& states, const CommonFrame& frame);
 
 /// The steps of a mapping that slips most likely, in usual ones. Its slip differs from the usual one's by 0.4 % of the
 /// area at most on the same pairs, and on all of them the choice is the same; with 8 on all but one.
@@ -20,17 +20,18 @@ constexpr double kTrialSteps = 4;
 
 /// The share of both surfaces' area that is matched and on its own residue, by which two refused mappings are compared.
 /// Unlike the slip, it does not depend on the motions that the mapping followed.
-double own_residue_share(const CompareResult& result);
+/// @param source_area, target_area of the whole surfaces
+double own_residue_share(const Certificate& certificate, double source_area, double target_area);
 
 /// Keeps `local` if it is within every limit of fit and slip, or if it has the larger own_residue_share(); otherwise
 /// `straight`. Potentials, regions and the round trip play no part: a pair has the same mapping with and without them.
-/// Sets the kept result's `other_mapping`.
+/// Sets the kept report's `other`.
 /// @param straight by the superposition of the whole; it slips
 /// @param local    by local motions
-MappedStep better_of(MappedStep straight, MappedStep local, const Molecule& source);
+MappedStep better_of(MappedStep straight, MappedStep local, const StatesToMap& states);
 
 /// Whether better_of() keeps `local`.
-bool keeps_local(const MappedStep& straight, const MappedStep& local, const Molecule& source);
+bool keeps_local(const MappedStep& straight, const MappedStep& local, const StatesToMap& states);
 
 /// Keeps `straight` where the second mapping failed, and says so.
 MappedStep without_second(MappedStep straight, const Message& error);

@@ -3,11 +3,10 @@
 
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "base/handles.h"
 #include "base/progress.h"
-#include "base/types.h"
+#include "compare/stages/series_state.h"
 #include "mapping/start_from.h"
 
 namespace espdiff {
@@ -15,25 +14,6 @@ namespace espdiff {
 struct CompareInput;
 struct CompareOptions;
 struct CompareResult;
-
-/// State that a series passes from one step to the next, in the source's principal frame. Angstrom.
-struct SeriesState {
-  std::vector<Vec3f> mapped;  ///< [vertex] the last step's mapped surface
-  std::vector<Vec3d> target;  ///< [atom of the source] position of its paired atom in the last target; NaN if unpaired
-
-  /// For the morph, whose mesh grows.
-  struct Morph {
-    std::vector<Vec3f> source;  ///< [vertex] position on the source
-    std::vector<Triangle> triangles;
-    std::vector<float> unmatched;    ///< [triangle] nonzero: lost in this step or an earlier one
-    std::vector<float> path_length;  ///< [vertex] path length so far
-    Molecule target;                 ///< the last target
-    /// Unmatched fractions of the source's area: on the last target, and on the last target that was mapped from the
-    /// source itself.
-    double unmatched_share = 0, unmatched_share_at_start = 0;
-  };
-  std::optional<Morph> morph;  ///< empty for the method deform
-};
 
 /// Compares many targets with one source. The source's surface is built and regularized once, for the first target, and
 /// its potential is computed once.
@@ -44,7 +24,7 @@ class Series {
   ~Series();
 
   /// Compares the source with one target. With kPrevious the mapping continues from the last step's where that is
-  /// possible; CompareResult::start reports it. After an error or a cancellation the next step starts from the source.
+  /// possible; MappingReport::start reports it. After an error or a cancellation the next step starts from the source.
   ///
   /// By deform, it continues if the last mapping converged and its target is closer to this one than the source is
   /// (RMSD of the paired atoms, as superposed). The internal force is measured from the source's shape in both cases.

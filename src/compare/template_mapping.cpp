@@ -11,13 +11,11 @@
 #include "causes/causes.h"
 #include "certificate/certificate.h"
 #include "certificate/result.h"
-#include "certificate/slip.h"
 #include "certificate/trusted_area.h"
-#include "compare/compare_fields.h"
-#include "compare/mapped_step.h"
-#include "compare/readings.h"
+#include "compare/stages/compare_fields.h"
+#include "compare/stages/mapped_step.h"
+#include "compare/stages/readings.h"
 #include "engine/engine.h"
-#include "engine/morph_stage.h"
 #include "field/field_kinds.h"
 #include "field/read_field.h"
 #include "input_checks/input_warnings.h"
@@ -25,13 +23,11 @@
 #include "input_checks/map_warnings.h"
 #include "mapping/build_surface.h"
 #include "mapping/input.h"
-#include "mapping/map_by_morph.h"
 #include "mapping/map_recipe.h"
 #include "mapping/mapping.h"
 #include "mapping/sample_outside.h"
 #include "mapping/side_maps.h"
 #include "mapping/stage_clock.h"
-#include "motions/atom_paths.h"
 #include "motions/common_frame.h"
 #include "motions/domain_motions.h"
 #include "options/options.h"
@@ -103,28 +99,19 @@ struct TemplateMapping::Parts {
   }
 
   /// A frame's given map against its charges.
-  void check_map(const CompareInput& frame, const Surface& target, const CommonFrame& common, CompareResult& result,
-                 const Progress& progress) {
-    if (frame.map == nullptr) return;
+  /// @param check receives the regression
+  std::vector<Warning> check_map(const CompareInput& frame, const Surface& target, const CommonFrame& common,
+                                 std::shared_ptr<const MapCheck>& check, const Progress& progress) {
+    std::vector<Warning> warnings;
+    if (frame.map == nullptr) return warnings;
     const MapReferences references(engine, *frame.molecule, common.from_target, target, isovalue(),
                                    options.temperature_K, progress);
-    for (Warning& warning :
-         map_warnings("frame", *frame.map, references, options.temperature_K, result.target_map_check)) {
+    for (Warning& warning : map_warnings("frame", *frame.map, references, options.temperature_K, check)) {
       warning.refuses = warning.refuses && !options.trust_maps;
-      result.warnings.push_back(std::move(warning));
+      warnings.push_back(std::move(warning));
     }
-    if (!options.trust_maps) refuse_other_kind(first_name, first_check, result.target_map_check);
-  }
-
-  std::vector<MovingAtom> paths_to(const CompareInput& frame, const CommonFrame& common, const AtomPairing& pairing,
-                                   const Progress& progress) const {
-    return atom_paths(*source.molecule, *frame.molecule, pairing, common.from_source, common.from_target,
-                      common.followed, options.surface.radius_scale, progress);
-  }
-
-  Mapping morph(const std::vector<MovingAtom>& paths, const Surface& target, const Progress& progress) {
-    return mapping_of(engine, engine.morph(regularized, paths, surface.atoms, target.atoms, morph_options(options),
-                                           "morph", progress));
+    if (!options.trust_maps) refuse_other_kind(first_name, first_check, check);
+    return warnings;
   }
 
   /// [vertex of the template] whether it has a counterpart.
@@ -179,21 +166,6 @@ struct TemplateMapping::Parts {
     return std::move(samples.values);
   }
 
-  /// Where the vertices arrive, with their residues on the template.
-  void describe_mapped(const Mapping& mapping, const Surface& target, const CommonFrame& common,
-                       MappedSurface& s) const {
-    const RigidTransform to_template = inverse(common.from_source), to_frame = inverse(common.from_target);
-    Mesh mesh = engine.download_shape(mapping.mapped);
-    s.triangles = std::move(mesh.triangles);
-    for (const Vec3f& p : mesh.positions) s.positions.push_back(to_frame.apply(static_cast<Vec3d>(p)));
-    s.unmatched.assign(mapping.unmatched.begin(), mapping.unmatched.end());
-    s.corrupt.assign(s.triangles.size(), 0);  // removed
-    s.residue = engine.vertex_residues(mapping.source, surface.atoms);
-    for (const Vec3f& p : engine.download_positions(mapping.source))
-      s.source_positions.push_back(to_template.apply(static_cast<Vec3d>(p)));
-    s.target_residue = engine.vertex_residues(mapping.mapped, target.atoms);
-  }
-
   /// @param values of the frame: its potential, and where it is trusted
   std::vector<FrameReading> readings_of(const CompareInput& frame, const MadeMap& made, const Mapping& mapping,
                                         const Surface& target, const AtomPairing& pairing, const TemplateFrame& values,
@@ -228,19 +200,6 @@ struct TemplateMapping::Parts {
     }
     return readings;
   }
-
-  /// The slip of the mapping.
-  void measure_slip(const Mapping& mapping, const Surface& target, const std::vector<MovingAtom>& paths,
-                    const SurfaceAreas& triangle_areas, CompareResult& result) const {
-    if (paths.empty()) return;
-    MappedSurface& s = result.surface;
-    s.slip = engine.slip(mapping.source, mapping.mapped, target.mesh, paths);
-    const std::vector<double> areas = matched_areas(s, triangle_areas);
-    for (std::size_t v = 0; v < areas.size(); ++v) {
-      if (areas[v] <= 0) s.slip[v] = std::numeric_limits<float>::quiet_NaN();
-    }
-    result.certificate.slip = summarize_slip(s, areas);
-  }
 };
 
 TemplateMapping::TemplateMapping(Engine& engine, const CompareInput& source, const CompareOptions& options,
@@ -268,14 +227,14 @@ void TemplateMapping::check_kind(const CompareInput& frame, const std::string& n
   if (frame.map == nullptr) return;
   std::vector<std::pair<std::string, double>> times;
   StageClock clock(times);
-  CompareResult result;
-  const CommonFrame common = align(*p.source.molecule, *frame.molecule, p.options, result);
+  const CommonFrame common = align(*p.source.molecule, *frame.molecule, p.options).frame;
   const Surface surface =
       build_surface(p.engine, *frame.molecule, common.from_target, p.options.surface, progress, clock);
-  p.check_map(frame, surface, common, result, progress);
-  if (p.first_check || !result.target_map_check) return;
-  if (result.target_map_check->best().correlation < kLeastMapCorrelation) return;
-  p.first_check = result.target_map_check;
+  std::shared_ptr<const MapCheck> check;
+  p.check_map(frame, surface, common, check, progress);
+  if (p.first_check || !check) return;
+  if (check->best().correlation < kLeastMapCorrelation) return;
+  p.first_check = check;
   p.first_name = name;
 }
 
@@ -283,49 +242,39 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, const Progress& pr
   Parts& p = *parts_;
   TemplateFrame out;
   StageClock clock(out.time_ms);
-  CompareResult result;
   const StateFields of_frame = make_state_fields(p.fields, *frame.molecule, {FieldSide::kFrame, frame.fields});
-  const CommonFrame common = align(*p.source.molecule, *frame.molecule, p.options, result);
-  result.warnings = input_warnings(*p.source.molecule, *frame.molecule, result);
+  const AlignedStates aligned = align(*p.source.molecule, *frame.molecule, p.options);
+  const CommonFrame& common = aligned.frame;
+  std::vector<Warning> warnings = input_warnings(*p.source.molecule, *frame.molecule, aligned.alignment);
   clock.lap("align");
   const MadeMap made = p.frame_map(frame, inverse(common.from_target), progress);
   clock.lap("potential");
   const Surface target =
       build_surface(p.engine, *frame.molecule, common.from_target, p.options.surface, progress, clock);
-  p.check_map(frame, target, common, result, progress);
-  const std::vector<MovingAtom> paths = p.paths_to(frame, common, result.pairing, progress);
-  Mapping mapping = p.morph(paths, target, progress);
-  clock.lap("morph");
-  find_matched_part(p.engine, mapping, target.atoms, target.mesh, p.isovalue());
-  result.certificate = certify(p.engine, mapping, target.mesh);
-  result.certificate.converged = true;
-  p.describe_mapped(mapping, target, common, result.surface);
-  const std::vector<std::int32_t> target_of = paired_residues(*p.source.molecule, *frame.molecule, result.pairing);
-  MappedSurface& s = result.surface;
-  const SurfaceAreas triangle_areas = surface_areas(s);
-  result.certificate.same_residue_area_fraction =
-      same_residue_share(s, triangle_areas, s.residue, s.target_residue, target_of);
-  p.measure_slip(mapping, target, paths, triangle_areas, result);
-  mark_turned(p.engine, *p.source.molecule, *frame.molecule, result.pairing, p.surface, mapping.source,
-              common.from_source, s);
-  s.why = why_of_mapping(s, target_of, KeptTurns::kAll);
-  result.certificate.trusted = sum_trusted(s, triangle_areas, {}, result.certificate.unmatched_target);
-  out.trusted = trusted_vertices(s);
+  std::shared_ptr<const MapCheck> check;
+  for (Warning& warning : p.check_map(frame, target, common, check, progress)) warnings.push_back(std::move(warning));
+  const StatesToMap states{p.engine,        p.options, *p.source.molecule, p.surface, p.regularized, false,
+                           *frame.molecule, target,    aligned.alignment};
+  MappedStep step = map_once(states, common, {}, KeptTurns::kAll, progress, clock);
+  const std::vector<Triangle>& triangles = step.surface.triangles;
+  MeasuredSurface measured;
+  Certificate& certificate = measured.certificate = std::move(step.certificate);
+  certificate.trusted = sum_trusted(step.surface, step.areas, {}, certificate.unmatched_target);
+  out.trusted = trusted_vertices(step.surface);
   out.trusted.resize(p.n_vertices);  // those that the morph added come after them
-  clock.lap("certificate");
-  out.potential = p.sample(made.map, frame, mapping, target, s.triangles, result.certificate.outside_maps);
-  p.read_fields(of_frame, frame, made.map, mapping, target, common, s.triangles, out);
+  out.potential = p.sample(made.map, frame, step.mapping, target, triangles, certificate.outside_maps);
+  p.read_fields(of_frame, frame, made.map, step.mapping, target, common, triangles, out);
   if (!p.reading_weights.empty())
-    out.readings = p.readings_of(frame, made, mapping, target, result.pairing, out, progress);
-  judge(result, *p.source.molecule, p.options.required_share);
+    out.readings = p.readings_of(frame, made, step.mapping, target, aligned.alignment.pairing, out, progress);
+  judge(measured, warnings, *p.source.molecule, p.options.required_share);
   out.unit = unit_of(frame);
-  out.rmsd_A = result.rmsd_A;
-  out.unmatched_template = result.certificate.unmatched_source;
-  out.unmatched_frame = result.certificate.unmatched_target;
-  out.distance_A = result.certificate.mapped_to_target.mean_within_limit;
-  out.same_residue_area_fraction = result.certificate.same_residue_area_fraction;
-  out.trustworthy = result.certificate.trustworthy;
-  if (!result.certificate.reasons.empty()) out.reason = result.certificate.reasons.front().plain();
+  out.rmsd_A = aligned.alignment.rmsd_A;
+  out.unmatched_template = certificate.unmatched_source;
+  out.unmatched_frame = certificate.unmatched_target;
+  out.distance_A = certificate.mapped_to_target.mean_within_limit;
+  out.same_residue_area_fraction = certificate.same_residue_area_fraction;
+  out.trustworthy = certificate.trustworthy;
+  if (!certificate.reasons.empty()) out.reason = certificate.reasons.front().plain();
   clock.lap("sample");
   clock.finish();
   return out;

@@ -272,7 +272,7 @@ InterfaceChange change_of_side(Engine& engine, const InterfaceOfComplex& source,
   source.read(side, change.source);
   target.read(side, change.target);
   change.why = s.why;
-  change.partner_of = paired_residues(from.molecule, to.molecule, mapped.pairing);
+  change.partner_of = paired_residues(from.molecule, to.molecule, mapped.alignment.pairing);
   change.verdict = verdict_of(mapped.certificate);
   return change;
 }

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "compare/readings.h"
+#include "compare/stages/readings.h"
 #include "engine/engine.h"
 #include "ensemble/ensemble_run.h"
 #include "ensemble/file/ensemble_file.h"

@@ -317,12 +317,12 @@ bool check_charges(const char* role, const ResidueView& view, std::vector<Warnin
   return false;
 }
 
-void check_paired_charges(const ResidueView& source, const ResidueView& target, const CompareResult& result,
+void check_paired_charges(const ResidueView& source, const ResidueView& target, const AtomPairing& pairing,
                           std::vector<Warning>& warnings) {
   const Molecule &a = *source.molecule, &b = *target.molecule;
   if (!has_any_charge(a) || !has_any_charge(b)) return;
-  const std::vector<PairedCharges> pairs = charges_of_pairs(a, b, result.pairing);
-  const std::vector<std::int32_t> partner = paired_residues(a, b, result.pairing);
+  const std::vector<PairedCharges> pairs = charges_of_pairs(a, b, pairing);
+  const std::vector<std::int32_t> partner = paired_residues(a, b, pairing);
   const std::vector<std::string> of_source = protonation_states(a), of_target = protonation_states(b);
   FaultyResidues charged_otherwise;
   std::size_t n_unchanged = 0, n_other = 0, n_atoms = 0;

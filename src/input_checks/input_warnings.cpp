@@ -94,17 +94,17 @@ double square_radius(const std::vector<Vec3d>& positions, const std::vector<std:
   return sum / static_cast<double>(atoms.size());
 }
 
-void check_rmsd(const Molecule& source, const Molecule& target, const CompareResult& result,
+void check_rmsd(const Molecule& source, const Molecule& target, const Alignment& alignment,
                 std::vector<Warning>& warnings) {
-  if (result.pairing.pairs.empty() || !std::isfinite(result.rmsd_A)) return;
-  double rmsd_A = result.rmsd_A, n_in_domains = 0, squares = 0;
-  for (const RigidDomain& domain : result.domains) {
+  if (alignment.pairing.pairs.empty() || !std::isfinite(alignment.rmsd_A)) return;
+  double rmsd_A = alignment.rmsd_A, n_in_domains = 0, squares = 0;
+  for (const RigidDomain& domain : alignment.domains) {
     n_in_domains += static_cast<double>(domain.n_atoms);
     squares += static_cast<double>(domain.n_atoms) * domain.rmsd_A * domain.rmsd_A;
   }
   if (n_in_domains > 0) rmsd_A = std::sqrt(squares / n_in_domains);
   std::vector<std::size_t> of_source, of_target;
-  for (const auto& [s, t] : result.pairing.pairs) {
+  for (const auto& [s, t] : alignment.pairing.pairs) {
     of_source.push_back(s);
     of_target.push_back(t);
   }
@@ -120,9 +120,9 @@ void check_rmsd(const Molecule& source, const Molecule& target, const CompareRes
 }
 
 /// The chain that turned or shifted most against those that keep their arrangement.
-void note_chain_motion(const CompareResult& result, std::vector<Warning>& warnings) {
+void note_chain_motion(const Alignment& alignment, std::vector<Warning>& warnings) {
   const ChainMotion* farthest = nullptr;
-  for (const ChainMotion& motion : result.chain_motions) {
+  for (const ChainMotion& motion : alignment.chain_motions) {
     if (motion.own_rmsd_A > kMostChainFit_A || motion.rmsd_A < kShiftToFit * motion.own_rmsd_A) continue;
     if (motion.rmsd_A < kNotedChainShift_A) continue;
     if (farthest == nullptr || motion.rmsd_A > farthest->rmsd_A) farthest = &motion;
@@ -134,10 +134,10 @@ void note_chain_motion(const CompareResult& result, std::vector<Warning>& warnin
 }
 
 /// Chains that fit by themselves, but not where the others put them.
-void check_arrangement(const Molecule& source, const Molecule& target, const CompareResult& result,
+void check_arrangement(const Molecule& source, const Molecule& target, const Alignment& alignment,
                        std::vector<Warning>& warnings) {
   std::map<std::string, std::pair<AtomPairs, std::set<std::int32_t>>> chains;
-  for (const auto& pair : result.pairing.pairs) {
+  for (const auto& pair : alignment.pairing.pairs) {
     const std::int32_t residue = source.atoms[pair.first].residue;
     auto& [pairs, residues] = chains[source.residues[static_cast<std::size_t>(residue)].chain];
     pairs.push_back(pair);
@@ -170,13 +170,13 @@ void check_arrangement(const Molecule& source, const Molecule& target, const Com
   }
   const auto& [shift, name, own] = worst;
   if (shift == 0) {
-    note_chain_motion(result, warnings);
+    note_chain_motion(alignment, warnings);
     return;
   }
-  const bool has_domains = !result.domains.empty();
+  const bool has_domains = !alignment.domains.empty();
   warnings.push_back({"the chains are arranged differently: chain " + name + " fits by " + short_number(own) +
                           " A alone, and lies " + short_number(shift) + " A from where the others put it (" +
-                          in_words(result.chain_motions) + ")" +
+                          in_words(alignment.chain_motions) + ")" +
                           (has_domains ? Message("; surfaces between chains have no counterpart")
                                        : "; give " + option("domains", "chains") + ", or compare one chain"),
                       !has_domains});
@@ -222,10 +222,10 @@ void check_poses(const PairedMolecules& pair, const AtomPairing& pairing, std::v
   }
 }
 
-void check_ligands(const ResidueView& source, const CompareResult& result, std::vector<Warning>& warnings) {
+void check_ligands(const ResidueView& source, const Alignment& alignment, std::vector<Warning>& warnings) {
   std::size_t n_small = 0;
   double farthest = 0;
-  for (const MovedResidue& moved : result.pairing.moved) {
+  for (const MovedResidue& moved : alignment.pairing.moved) {
     const Residue& residue = source.molecule->residues[moved.source];
     if (source.atoms[moved.source].size() < kLeastLigandAtoms || is_additive(residue.name)) {
       ++n_small;
@@ -242,7 +242,7 @@ void check_ligands(const ResidueView& source, const CompareResult& result, std::
                             " A) and did not pair: the surface there was not compared",
                         false});
   std::string exchanged;
-  for (const auto& [a, b] : result.pairing.exchanged_chains)
+  for (const auto& [a, b] : alignment.pairing.exchanged_chains)
     exchanged += (exchanged.empty() ? "" : ", ") + a + " with " + b;
   if (!exchanged.empty())
     warnings.push_back({"equal chains pair by their arrangement, not by their names: " + exchanged, false});
@@ -299,8 +299,8 @@ std::vector<std::vector<Warning>> by_all(const std::vector<std::function<void(st
 
 }  // namespace
 
-std::vector<Warning> input_warnings(const Molecule& source, const Molecule& target, const CompareResult& result) {
-  const PairedMolecules pair(source, target, result.pairing);
+std::vector<Warning> input_warnings(const Molecule& source, const Molecule& target, const Alignment& alignment) {
+  const PairedMolecules pair(source, target, alignment.pairing);
   bool source_is_known = false, target_is_known = false;
   using Warnings = std::vector<Warning>;
   constexpr std::size_t kPairedCharges = 5;  // counts where both molecules' charges can be told
@@ -310,15 +310,15 @@ std::vector<Warning> input_warnings(const Molecule& source, const Molecule& targ
       [&](Warnings& w) { check_geometry("target", pair.target, w); },
       [&](Warnings& w) { source_is_known = check_charges("source", pair.source, w); },
       [&](Warnings& w) { target_is_known = check_charges("target", pair.target, w); },
-      [&](Warnings& w) { check_paired_charges(pair.source, pair.target, result, w); },
+      [&](Warnings& w) { check_paired_charges(pair.source, pair.target, alignment.pairing, w); },
       [&](Warnings& w) { check_chirality(pair, w); },
-      [&](Warnings& w) { check_register(pair, result, w); },
+      [&](Warnings& w) { check_register(pair, alignment, w); },
       [&](Warnings& w) { check_side_chains(pair, w); },
-      [&](Warnings& w) { check_rmsd(source, target, result, w); },
-      [&](Warnings& w) { check_arrangement(source, target, result, w); },
-      [&](Warnings& w) { check_ligands(pair.source, result, w); },
-      [&](Warnings& w) { check_poses(pair, result.pairing, w); },
-      [&](Warnings& w) { check_radii(source, target, result.pairing, w); },
+      [&](Warnings& w) { check_rmsd(source, target, alignment, w); },
+      [&](Warnings& w) { check_arrangement(source, target, alignment, w); },
+      [&](Warnings& w) { check_ligands(pair.source, alignment, w); },
+      [&](Warnings& w) { check_poses(pair, alignment.pairing, w); },
+      [&](Warnings& w) { check_radii(source, target, alignment.pairing, w); },
   });
   Warnings all;
   for (std::size_t k = 0; k < warnings.size(); ++k) {

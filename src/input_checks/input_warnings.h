@@ -22,12 +22,12 @@ struct ResidueView;
 /// - charges and coordinates that cannot be right, and charges of two force fields;
 /// - hydrogens, or other radii, on one side only.
 /// Time is linear in the number of atoms, but for logarithms.
-/// @param result with pairing, superposition, domains and the chains' motions
-std::vector<Warning> input_warnings(const Molecule& source, const Molecule& target, const CompareResult& result);
+/// @param alignment with domains and the chains' motions
+std::vector<Warning> input_warnings(const Molecule& source, const Molecule& target, const Alignment& alignment);
 
 /// The checks that have files of their own: broken_chains.cpp, register_warning.cpp, exchanged_side_chains.cpp.
 void check_chains(const PairedMolecules& pair, std::vector<Warning>& warnings);
-void check_register(const PairedMolecules& pair, const CompareResult& result, std::vector<Warning>& warnings);
+void check_register(const PairedMolecules& pair, const Alignment& alignment, std::vector<Warning>& warnings);
 void check_side_chains(const PairedMolecules& pair, std::vector<Warning>& warnings);
 
 /// The charges of one molecule (charge_warnings.cpp): backbones whose charges have another unit, sign or place, and
@@ -37,8 +37,8 @@ void check_side_chains(const PairedMolecules& pair, std::vector<Warning>& warnin
 bool check_charges(const char* role, const ResidueView& view, std::vector<Warning>& warnings);
 
 /// The charges of paired residues of one name: of two force fields, or different by 1 e although their hydrogens are
-/// the same (those that differ are in CompareResult::protonation).
-void check_paired_charges(const ResidueView& source, const ResidueView& target, const CompareResult& result,
+/// the same (those that differ are in InputReport::protonation).
+void check_paired_charges(const ResidueView& source, const ResidueView& target, const AtomPairing& pairing,
                           std::vector<Warning>& warnings);
 
 /// The coordinates of one molecule (geometry_warnings.cpp): their unit, rounding, bonds within residues, side chains

@@ -153,15 +153,15 @@ std::vector<Warning> map_warnings(const char* role, const Grid& map, const MapRe
 }
 
 void pair_warnings(const CompareInput& source, const CompareInput& target, const MapReferences* of_source,
-                   const MapReferences* of_target, const CompareResult& result, std::vector<Warning>& warnings) {
+                   const MapReferences* of_target, const ComparedMaps& maps, std::vector<Warning>& warnings) {
   if (source.map == nullptr || target.map == nullptr) return;
   if (same_map(*source.map, *target.map) && !same_state(*source.molecule, *target.molecule)) {
     warnings.push_back(refuse("one map is given for two different states (" + source.map->name + ", " +
                               target.map->name + "): each state has a potential of its own"));
     return;
   }
-  if (!result.source_map_check || !result.target_map_check || of_source == nullptr || of_target == nullptr) return;
-  const double a = result.source_map_check->best().correlation, b = result.target_map_check->best().correlation;
+  if (!maps.source_check || !maps.target_check || of_source == nullptr || of_target == nullptr) return;
+  const double a = maps.source_check->best().correlation, b = maps.target_check->best().correlation;
   if (std::min(a, b) >= kLeastMapCorrelation + kBetterByExchange) return;
   const std::optional<MapCheck> at_source = of_source->check(*target.map), at_target = of_target->check(*source.map);
   if (!at_source || !at_target) return;
@@ -190,9 +190,8 @@ Kind kind_of(const std::shared_ptr<const MapRecipe>& recipe, const std::shared_p
 }
 
 /// Of source and target.
-std::pair<Kind, Kind> kinds_of(const CompareResult& result) {
-  return {kind_of(result.source_recipe, result.source_map_check),
-          kind_of(result.target_recipe, result.target_map_check)};
+std::pair<Kind, Kind> kinds_of(const ComparedMaps& maps) {
+  return {kind_of(maps.source_recipe, maps.source_check), kind_of(maps.target_recipe, maps.target_check)};
 }
 
 Message two_kinds(const Kind& source, const Kind& target) {
@@ -209,8 +208,8 @@ bool is_water_of_a_frame(const std::shared_ptr<const MapRecipe>& recipe) {
 
 }  // namespace
 
-void refuse_vacuum_against_solvent(const CompareResult& result) {
-  const auto [a, b] = kinds_of(result);
+void refuse_vacuum_against_solvent(const ComparedMaps& maps) {
+  const auto [a, b] = kinds_of(maps);
   if (is_vacuum_against_solvent(a, b))
     throw InputError(two_kinds(a, b) +
                      "; one in vacuum is tens of times one in salt water: compute both alike, or compare them as they "
@@ -228,8 +227,8 @@ void refuse_other_kind(const std::string& name_of_first, const std::shared_ptr<c
                      switched_on("trust-maps"));
 }
 
-std::vector<Warning> water_warnings(const CompareResult& result) {
-  if (!is_water_of_a_frame(result.source_recipe) && !is_water_of_a_frame(result.target_recipe)) return {};
+std::vector<Warning> water_warnings(const ComparedMaps& maps) {
+  if (!is_water_of_a_frame(maps.source_recipe) && !is_water_of_a_frame(maps.target_recipe)) return {};
   return {
       {"the potential of single frames with explicit water is mostly that of the water that touches the surface at "
        "that moment: take " +
@@ -238,20 +237,20 @@ std::vector<Warning> water_warnings(const CompareResult& result) {
        true}};
 }
 
-std::vector<Warning> kind_warnings(const CompareResult& result) {
-  const auto [a, b] = kinds_of(result);
+std::vector<Warning> kind_warnings(const ComparedMaps& maps) {
+  const auto [a, b] = kinds_of(maps);
   if (!a.known || !b.known) return {};
   if (is_vacuum_against_solvent(a, b))
     return {{two_kinds(a, b) + ": one in vacuum is tens of times one in salt water", false}};
   if (a.words != b.words) return {{two_kinds(a, b) + "; their difference is not of the states alone", false}};
   if (!a.given) {
-    const std::string differing = differing_parameters(*result.source_recipe, *result.target_recipe);
+    const std::string differing = differing_parameters(*maps.source_recipe, *maps.target_recipe);
     if (differing.empty()) return {};
     return {{"the two potentials are computed with different parameters (source and target): " + differing +
                  "; their difference is not of the states alone",
              false}};
   }
-  const double s = result.source_map_check->best().slope, t = result.target_map_check->best().slope;
+  const double s = maps.source_check->best().slope, t = maps.target_check->best().slope;
   if (!(s > 0 && t > 0) || within_factor(s, t, kSameSettings)) return {};
   return {{"the two maps are of two sizes: the source's is " + short_number(s) +
                " times the potential of its charges, the target's " + short_number(t) +

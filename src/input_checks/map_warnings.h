@@ -25,11 +25,11 @@ std::vector<Warning> map_warnings(const char* role, const Grid& map, const MapRe
 /// @param warnings of map_warnings(), receives more
 /// @param of_source, of_target null where the side's map was computed
 void pair_warnings(const CompareInput& source, const CompareInput& target, const MapReferences* of_source,
-                   const MapReferences* of_target, const CompareResult& result, std::vector<Warning>& warnings);
+                   const MapReferences* of_target, const ComparedMaps& maps, std::vector<Warning>& warnings);
 
 /// A potential in vacuum against one in solvent: their difference is the solvent's, whatever the states.
 /// @throws InputError  where both kinds are known
-void refuse_vacuum_against_solvent(const CompareResult& result);
+void refuse_vacuum_against_solvent(const ComparedMaps& maps);
 
 /// The same of the given maps of an ensemble.
 /// @param first, other may be null: not checked
@@ -38,9 +38,9 @@ void refuse_other_kind(const std::string& name_of_first, const std::shared_ptr<c
                        const std::shared_ptr<const MapCheck>& other);
 
 /// Single frames with explicit water, by PME: refuses, and no option takes it as it is.
-std::vector<Warning> water_warnings(const CompareResult& result);
+std::vector<Warning> water_warnings(const ComparedMaps& maps);
 
-/// What else the two potentials of a result do not have in common. None of it refuses.
-std::vector<Warning> kind_warnings(const CompareResult& result);
+/// What else the two potentials do not have in common. None of it refuses.
+std::vector<Warning> kind_warnings(const ComparedMaps& maps);
 
 }  // namespace espdiff

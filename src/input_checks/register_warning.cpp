@@ -126,8 +126,8 @@ std::ptrdiff_t shift_of_stretch(const PairedMolecules& pair, const std::vector<C
 
 }  // namespace
 
-void check_register(const PairedMolecules& pair, const CompareResult& result, std::vector<Warning>& warnings) {
-  if (check_whole_register(pair, result.source_to_target, warnings)) return;
+void check_register(const PairedMolecules& pair, const Alignment& alignment, std::vector<Warning>& warnings) {
+  if (check_whole_register(pair, alignment.source_to_target, warnings)) return;
   const std::vector<ChainPlace> in_target = chain_places(pair.target_links);
   const Molecule& molecule = *pair.source.molecule;
   std::size_t n = 0;

@@ -113,6 +113,26 @@ void find_matched_part(Engine& engine, Mapping& mapping, const AtomsPtr& target_
   mapping.to_target = engine.distances_without(mapping.matched, first, mapping.to_target, flags, kMatchLimit_A);
 }
 
+MeshPtr what_is_left(Engine& engine, const MeshPtr& mesh, const std::vector<float>& excluded) {
+  if (std::all_of(excluded.begin(), excluded.end(), [](float flag) { return flag != 0; })) return nullptr;
+  return engine.without(mesh, engine.upload_scalars(excluded));
+}
+
+Mapping part_of_mapping(Engine& engine, const Mapping& mapping, const std::vector<float>& outside,
+                        const AtomsPtr& target_atoms, const MeshPtr& target, float isovalue) {
+  std::vector<float> excluded = outside;
+  for (std::size_t t = 0; t < mapping.unmatched.size(); ++t) excluded[t] = std::max(excluded[t], mapping.unmatched[t]);
+  Mapping part;
+  part.source = what_is_left(engine, mapping.source, outside);
+  part.matched = what_is_left(engine, mapping.mapped, excluded);
+  part.matched_source = what_is_left(engine, mapping.source, excluded);
+  if (part.matched == nullptr) return part;
+  measure(engine, part, target_atoms, target, isovalue);
+  measure_distortion(engine, part);
+  part.intersections = engine.self_intersections(part.matched);
+  return part;
+}
+
 void drop_closed_cavities(Engine& engine, Mapping& mapping) {
   const std::vector<ComponentSummary> components = engine.components(mapping.source);
   const auto is_cavity = [](const ComponentSummary& component) { return component.volume_A3 < 0; };

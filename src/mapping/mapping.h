@@ -42,6 +42,17 @@ struct Mapping {
 void find_matched_part(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, const MeshPtr& target,
                        float isovalue);
 
+/// The part of a mapping that lies inside, measured like the whole: without `mapped`, `unmatched` and `path_length`.
+/// `source` is null where nothing of the mesh is inside, `matched` and `matched_source` where nothing of that is
+/// matched.
+/// @param outside [triangle] nonzero where it does not belong to the part
+Mapping part_of_mapping(Engine& engine, const Mapping& mapping, const std::vector<float>& outside,
+                        const AtomsPtr& target_atoms, const MeshPtr& target, float isovalue);
+
+/// A mesh without triangles; null where nothing is left.
+/// @param excluded [triangle] nonzero where it is left out
+MeshPtr what_is_left(Engine& engine, const MeshPtr& mesh, const std::vector<float>& excluded);
+
 /// Removes the source's closed cavities where they are unmatched; any part that remains has opened.
 void drop_closed_cavities(Engine& engine, Mapping& mapping);
 

@@ -53,7 +53,7 @@ MatrixCell cell_of(const MatrixPair& pair, const CompareResult& result) {
   for (const std::string& part : compared.parts)
     cell.parts_trustworthy.push_back(part_of(result, part)->certificate.trustworthy ? 1 : 0);
   for (const Message& reason : result.certificate.reasons) cell.reasons.push_back(reason.plain());
-  for (const Warning& warning : result.warnings) {
+  for (const Warning& warning : result.inputs.warnings) {
     if (!warning.refuses) cell.warnings.push_back(warning.text.plain());  // those that refuse are reasons
   }
   return cell;
@@ -97,7 +97,7 @@ class SourceOfPairs {
     CompareResult result =
         series->step(input_of(target, note.empty() ? target.molecule : other), StartFrom::kSource, progress);
     note_states(result, source_.origin, target.origin, note);
-    if (!note.empty()) result.warnings.push_back({note + "; both surfaces take Bondi's radii by element"});
+    if (!note.empty()) result.inputs.warnings.push_back({note + "; both surfaces take Bondi's radii by element"});
     return result;
   }
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "compare/readings.h"
+#include "compare/stages/readings.h"
 #include "io/files/atomic_file.h"
 #include "io/files/check_outputs.h"
 #include "matrix/matrix_state.h"

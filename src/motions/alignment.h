@@ -20,8 +20,6 @@ struct Alignment {
   std::size_t n_superposed_atoms = 0;
   RigidTransform source_to_target;   ///< the superposition
   std::vector<RigidDomain> domains;  ///< superposed separately; displacements start where their motions end
-  /// The value of the setting `domains` that the mapping followed: with `as-needed`, `none` or `local`.
-  std::string domains_used = "none";
 };
 
 }  // namespace espdiff

@@ -42,25 +42,27 @@ CommonFrame superposed(const Molecule& source, const Molecule& target, AlignAtom
 
 }  // namespace
 
-CommonFrame align(const Molecule& source, const Molecule& target, const CompareOptions& options, Alignment& result) {
-  CommonFrame frame = superposed(source, target, options.align, result);
+AlignedStates align(const Molecule& source, const Molecule& target, const CompareOptions& options) {
+  AlignedStates aligned;
+  Alignment& result = aligned.alignment;
+  CommonFrame& frame = aligned.frame = superposed(source, target, options.align, result);
   result.chain_motions = chain_motions(source, target, result.pairing);
-  result.domains_used = options.domains == kLocalAsNeeded ? kNoDomains : options.domains;
-  if (result.domains_used == kNoDomains) return frame;
+  frame.follows = options.domains == kLocalAsNeeded ? kNoDomains : options.domains;
+  if (frame.follows == kNoDomains) return aligned;
   const auto pairs =
       options.align == AlignAtoms::kNone ? result.pairing.pairs : select_pairs(result.pairing, source, options.align);
   if (pairs.empty()) throw InputError("domains need paired atoms, and none pair; give domains none");
-  if (result.domains_used == kLocalMotions) {
+  if (frame.follows == kLocalMotions) {
     if (options.method != Method::kMorph)
       throw InputError(option("domains", kLocalMotions) + ": only the morph follows the motions of residues; use " +
                        option("method", "morph") + ", or " + option("domains", "auto"));
     frame.followed = local_motions(source, target, result.pairing, frame.from_source, frame.from_target);
-    return frame;
+    return aligned;
   }
   result.domains = find_domains(options.domains, source, target, pairs);
   frame.domains = domain_motions(result.domains, source, frame.from_source, frame.from_target);
   frame.followed = frame.domains;
-  return frame;
+  return aligned;
 }
 
 }  // namespace espdiff

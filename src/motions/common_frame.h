@@ -1,6 +1,8 @@
 // common_frame.h: the common frame of a comparison's two molecules.
 #pragma once
 
+#include <string>
+
 #include "motions/alignment.h"
 #include "motions/domain_motions.h"
 
@@ -14,12 +16,19 @@ struct CommonFrame {
   RigidTransform from_source, from_target;  // own frame -> common frame
   DomainMotions domains{};
   DomainMotions followed{};  ///< what atoms follow to the target: the domains, or each residue's own motion
+  /// The value of the setting `domains` that `followed` stands for: with `as-needed`, `none` or `local`.
+  std::string follows = "none";
+};
+
+/// Two molecules, paired and superposed.
+struct AlignedStates {
+  CommonFrame frame;
+  Alignment alignment;
 };
 
 /// Pairs atoms, superposes the target, and finds the rigid domains, as the options say. With `as-needed` everything
 /// follows the superposition of the whole.
-/// @param result receives the pairing, the superposition and its RMSD, and the domains
 /// @throws InputError (no pairs where they are needed, domains), GeometryError (too few pairs)
-CommonFrame align(const Molecule& source, const Molecule& target, const CompareOptions& options, Alignment& result);
+AlignedStates align(const Molecule& source, const Molecule& target, const CompareOptions& options);
 
 }  // namespace espdiff

@@ -230,11 +230,12 @@ void print_answer(std::ostream& out, const Json& json, const std::string& show) 
 }
 
 void print_verdict_line(std::ostream& out, const CompareResult& result) {
-  const Metric& metric = *find_metric_or_null(result.has_potential ? "mean_abs_difference" : "mean_displacement_A");
+  const Metric& metric =
+      *find_metric_or_null(result.potential.compared ? "mean_abs_difference" : "mean_displacement_A");
   std::string label = metric.label;
   label[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(label[0])));
   out << verdict_of(result.certificate) << ": " << label << ' ' << formatted(metric, value_of(metric, result)) << ' '
-      << unit_of(metric, to_string(result.unit)) << '\n';
+      << unit_of(metric, to_string(result.potential.unit)) << '\n';
 }
 
 }  // namespace espdiff

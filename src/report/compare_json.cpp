@@ -46,21 +46,21 @@ Json number_of(const Metric& metric, double value) {
 }
 
 /// Every metric at its place. What was not checked is null as a whole.
-void add_metrics(Json& json, const CompareResult& result) {
+void add_metrics(Json& json, const MeasuredSurface& result) {
   for (const Metric& metric : metrics()) {
     if (!metric.has_result()) continue;
     const Json::json_pointer pointer(metric.json_pointer());
     if (is_unchecked(metric, result)) {
       json[pointer.parent_pointer()] = nullptr;
     } else {
-      json[pointer] = number_of(metric, value_of(metric, result));
+      json[pointer] = number_of(metric, value_on(metric, result));
     }
   }
 }
 
 /// Each field under its name: what it is, its metrics, and what is left out.
 /// @param part empty for the whole
-Json compared_fields_json(const CompareResult& result, const std::string& part) {
+Json compared_fields_json(const MeasuredSurface& result, const std::string& part) {
   Json json = Json::object();
   for (const FieldResult& field : result.fields) {
     Json& entry = json[field.quantity.name];
@@ -70,7 +70,7 @@ Json compared_fields_json(const CompareResult& result, const std::string& part) 
     for (const Metric& metric : field_metrics(field.quantity)) {
       if (!metric.has_result()) continue;
       const std::string key = Json::json_pointer(metric.json_pointer()).back();
-      entry[key] = json_number(value_of(metric, result));
+      entry[key] = json_number(value_on(metric, result));
       all[key] = json_number(value_over_all_triangles(metric, result));
     }
     entry["metrics_all_triangles"] = std::move(all);
@@ -82,7 +82,7 @@ Json compared_fields_json(const CompareResult& result, const std::string& part) 
 
 Json warnings(const CompareResult& result, const OptionSpelling& spelling) {
   Json json = Json::array();
-  for (const Warning& warning : result.warnings)
+  for (const Warning& warning : result.inputs.warnings)
     json.push_back({{"text", warning.text.spelled(spelling)}, {"refuses", warning.refuses}});
   return json;
 }
@@ -113,7 +113,7 @@ Json metrics_all_triangles(const CompareResult& result) {
 /// The metrics at each distance outside the surfaces, and what is left out there.
 Json offsets(const CompareResult& result) {
   Json json = Json::array();
-  for (const OffsetMetrics& at : result.by_offset) {
+  for (const OffsetMetrics& at : result.potential.by_offset) {
     Json entry;
     entry["offset_A"] = json_number(at.offset_A);
     for (const Metric& metric : metrics()) {
@@ -150,29 +150,31 @@ Json paired_atoms(const AtomPairing& pairing) {
 }
 
 Json superposition(const Molecule& source, const CompareResult& result) {
-  const RigidTransform& t = result.source_to_target;
+  const RigidTransform& t = result.alignment.source_to_target;
   Json rotation = Json::array();
   for (const double entry : t.rotation) rotation.push_back(json_number(entry));
   Json json;
-  json["pairing"] = result.pairing.method;
-  json["n_aligned_residues"] = result.pairing.n_aligned_residues;
-  json["n_substituted_residues"] = result.pairing.n_substituted_residues;
-  json["n_superposed_atoms"] = result.n_superposed_atoms;
+  json["pairing"] = result.alignment.pairing.method;
+  json["n_aligned_residues"] = result.alignment.pairing.n_aligned_residues;
+  json["n_substituted_residues"] = result.alignment.pairing.n_substituted_residues;
+  json["n_superposed_atoms"] = result.alignment.n_superposed_atoms;
   json["rotation_row_major"] = std::move(rotation);
   json["translation_A"] = {json_number(t.translation.x), json_number(t.translation.y), json_number(t.translation.z)};
-  json["domains"] = domains(source, result.domains);
-  json["paired_atoms"] = paired_atoms(result.pairing);
+  json["domains"] = domains(source, result.alignment.domains);
+  json["paired_atoms"] = paired_atoms(result.alignment.pairing);
   return json;
 }
 
 /// What the mapping followed, and the other mapping where the pair was mapped twice.
 Json motions(const CompareResult& result) {
-  Json json{{"domains", result.domains_used},
-            {"own_residue_area_fraction", json_number(own_residue_share(result))},
-            {"because", nullptr},
-            {"other", nullptr}};
-  if (!result.other_mapping) return json;
-  const OtherMapping& other = *result.other_mapping;
+  Json json{
+      {"domains", result.mapping.domains},
+      {"own_residue_area_fraction", json_number(own_residue_share(result.certificate, result.source_surface.area_A2,
+                                                                  result.target_surface.area_A2))},
+      {"because", nullptr},
+      {"other", nullptr}};
+  if (!result.mapping.other) return json;
+  const OtherMapping& other = *result.mapping.other;
   json["because"] = other.because;
   json["other"] = {{"domains", other.domains},
                    {"own_residue_area_fraction", json_number(other.own_residue_area_fraction)},
@@ -208,7 +210,7 @@ Json input_files(const Provenance& provenance, const CompareResult& result) {
   Json json = Json::array();
   for (const InputFile& input : provenance.inputs) {
     json.push_back({{"role", input.role}, {"path", input.path}, {"sha256", input.sha256}});
-    const auto& made = input.role == "source_map" ? result.source_recipe : result.target_recipe;
+    const auto& made = input.role == "source_map" ? result.maps.source_recipe : result.maps.target_recipe;
     if (input.computed) json.back()["computed"] = recipe_json(made ? *made : *input.computed);
     if (!input.read_with) continue;
     json.back()["model"] = input.read_with->model;
@@ -221,36 +223,37 @@ Json input_files(const Provenance& provenance, const CompareResult& result) {
 Json chains(const CompareResult& result) {
   Json json;
   json["compared"] = Json::array();
-  for (const ComparedChains& pair : result.chains)
+  for (const ComparedChains& pair : result.inputs.chains)
     json["compared"].push_back({{"source", pair.source}, {"target", pair.target}, {"n_residues", pair.n_residues}});
   json["motions"] = Json::array();
-  for (const ChainMotion& motion : result.chain_motions)
+  for (const ChainMotion& motion : result.alignment.chain_motions)
     json["motions"].push_back({{"source", motion.chain},
                                {"rotation_degrees", json_number(motion.rotation_degrees)},
                                {"shift_A", json_number(motion.shift_A)},
                                {"rmsd_A", json_number(motion.rmsd_A)},
                                {"own_rmsd_A", json_number(motion.own_rmsd_A)}});
-  json["copies"] = {{"source", result.source_copies}, {"target", result.target_copies}};
+  json["copies"] = {{"source", result.inputs.source_copies}, {"target", result.inputs.target_copies}};
   return json;
 }
 
 /// A region's or patch's metrics and certificate, under the names of the whole's.
-Json part_json(const CompareResult& part, const std::string& name, const OptionSpelling& spelling) {
+Json part_json(const PartResult& part, const OptionSpelling& spelling) {
   Json json;
   json["n_residues"] = part.residues.size();
   json["residues"] = Json::array();
   for (const ResidueRow& row : part.residues) json["residues"].push_back(row.residue);
   add_metrics(json, part);
-  json["fields"] = compared_fields_json(part, name);
+  json["fields"] = compared_fields_json(part, part.name);
   json["by_offset"] = Json::array();
-  for (const OffsetMetrics& at : part.by_offset) {
+  for (const OffsetMetrics& at : part.potential.by_offset) {
     Json entry{{"offset_A", json_number(at.offset_A)}};
     for (const Metric& metric : metrics()) {
       if (metric.source.of_area != nullptr) entry[metric.name] = json_number(at.metrics.*metric.source.of_area);
     }
     json["by_offset"].push_back(std::move(entry));
   }
-  json["n_vertices_outside_map"] = {{"source", part.n_outside_source_map}, {"target", part.n_outside_target_map}};
+  json["n_vertices_outside_map"] = {{"source", part.potential.n_outside_source_map},
+                                    {"target", part.potential.n_outside_target_map}};
   add_verdict(json["certificate"], part.certificate, spelling);
   return json;
 }
@@ -264,15 +267,15 @@ Json preparations(const Provenance& provenance) {
 /// What is said of how the states were read and prepared.
 Json notes(const CompareResult& result) {
   Json json = Json::array();
-  for (const auto& [label, text] : result.input_lines) json.push_back({{"label", label}, {"text", text}});
+  for (const auto& [label, text] : result.inputs.lines) json.push_back({{"label", label}, {"text", text}});
   return json;
 }
 
 void add_results(Json& json, const Molecule& source, const CompareResult& result, const OptionSpelling& spelling) {
-  json["n_paired_atoms"] = result.pairing.pairs.size();
-  json["potential_unit"] = result.has_potential ? Json(potential_unit_text(result)) : Json(nullptr);
+  json["n_paired_atoms"] = result.alignment.pairing.pairs.size();
+  json["potential_unit"] = result.potential.compared ? Json(potential_unit_text(result)) : Json(nullptr);
   json["potential"] = potential_json(result);
-  json["shapes_because"] = result.shapes_because.empty() ? Json(nullptr) : Json(result.shapes_because);
+  json["shapes_because"] = result.inputs.shapes_because.empty() ? Json(nullptr) : Json(result.inputs.shapes_because);
   json["given_maps"] = given_maps_json(result);
   add_metrics(json, result);
   json["by_offset"] = offsets(result);
@@ -284,15 +287,16 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   json["whole_surface"] = {
       {"mean_abs_difference", {{"estimate", json_number(whole.estimate)}, {"at_most", json_number(whole.at_most)}}}};
   json["fields"] = compared_fields_json(result, "");
-  json["region"] = result.region == nullptr ? Json(nullptr) : part_json(*result.region, kRegionPart, spelling);
+  json["region"] = nullptr;
   json["fixed_patches"] = Json::object();
-  for (const PatchResult& patch : result.patches) {
-    Json& entry = json["fixed_patches"][patch.name] = part_json(*patch.result, patch.name, spelling);
-    if (patch.placement != nullptr) entry["placement"] = placement_json(*patch.placement);
+  for (const PartResult& part : result.parts) {
+    Json& entry = part.name == kRegionPart ? json["region"] : json["fixed_patches"][part.name];
+    entry = part_json(part, spelling);
+    if (part.placement != nullptr) entry["placement"] = placement_json(*part.placement);
   }
   json["causes"] = result.causes == nullptr ? Json::array() : causes_json(*result.causes, potential_unit_text(result));
   json["protonation_differences"] = Json::array();
-  for (const ProtonationDifference& difference : result.protonation)
+  for (const ProtonationDifference& difference : result.inputs.protonation)
     json["protonation_differences"].push_back(in_words(difference, source));
   json["chains"] = chains(result);
   json["superposition"] = superposition(source, result);
@@ -302,17 +306,18 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   json["n_components"] = result.source_surface.n_components;
   json["n_cavities_left_out"] = {{"source", result.source_surface.n_cavities_left_out},
                                  {"target", result.target_surface.n_cavities_left_out}};
-  json["n_vertices_outside_map"] = {{"source", result.n_outside_source_map}, {"target", result.n_outside_target_map}};
+  json["n_vertices_outside_map"] = {{"source", result.potential.n_outside_source_map},
+                                    {"target", result.potential.n_outside_target_map}};
   json["surfaces"] = {{"source", surface(result.source_surface)}, {"target", surface(result.target_surface)}};
-  json["start"] = result.start == StartFrom::kPrevious ? "previous" : "source";
-  if (result.flow_report.sweeps > 0) {
-    json["gvf"] = {{"sweeps", result.flow_report.sweeps},
-                   {"residual", json_number(result.flow_report.residual)},
-                   {"converged", result.flow_report.converged}};
+  json["start"] = result.mapping.start == StartFrom::kPrevious ? "previous" : "source";
+  if (result.mapping.flow.sweeps > 0) {
+    json["gvf"] = {{"sweeps", result.mapping.flow.sweeps},
+                   {"residual", json_number(result.mapping.flow.residual)},
+                   {"converged", result.mapping.flow.converged}};
   }
   json["n_vertices_added"] =
-      result.morph_report.steps > 0 ? result.morph_report.n_vertices_added : result.n_vertices_subdivided;
-  json["iterations_regularize"] = result.regularize_report.iterations;
+      result.mapping.morph.steps > 0 ? result.mapping.morph.n_vertices_added : result.mapping.n_vertices_subdivided;
+  json["iterations_regularize"] = result.mapping.regularize.iterations;
 }
 
 }  // namespace

@@ -74,14 +74,14 @@ void require_residue_quantity(const std::string& name, const std::vector<FieldRe
 }
 
 std::string usual_residue_quantity(const CompareResult& result) {
-  return result.has_potential ? "mean_abs_difference" : "mean_displacement_A";
+  return result.potential.compared ? "mean_abs_difference" : "mean_displacement_A";
 }
 
 std::vector<double> residue_values(const CompareResult& result, const std::string& quantity) {
   if (quantity == kShare) return residue_shares(result);
   if (quantity == kContribution) return residue_contributions(result);
   const Metric metric = find_quantity(quantity, result);
-  if (metric.section == MetricSection::kPotential && *metric.field == '\0' && !result.has_potential)
+  if (metric.section == MetricSection::kPotential && *metric.field == '\0' && !result.potential.compared)
     throw InputError(quantity + " needs potentials, and shapes alone were compared; take mean_displacement_A");
   std::vector<double> values;
   for (const ResidueRow& row : result.residues) values.push_back(value_of(metric, result, row));

@@ -24,7 +24,7 @@ std::string joined(const std::vector<std::string>& items, std::size_t most) {
 void note_state(CompareResult& result, const std::string& role, const StateOrigin& state) {
   const std::string label = "Charges, " + role;
   for (const ChargeFile& file : state.charge_files) {
-    if (file.use != "ligand") result.input_lines.emplace_back(label, "of " + file.path);
+    if (file.use != "ligand") result.inputs.lines.emplace_back(label, "of " + file.path);
   }
   if (!state.preparation) return;
   const Preparation& p = *state.preparation;
@@ -32,16 +32,16 @@ void note_state(CompareResult& result, const std::string& role, const StateOrigi
                      std::to_string(p.n_hydrogens_added) + " hydrogens added";
   if (!p.added.empty())
     text += ", " + std::to_string(p.added.size()) + (p.added.size() == 1 ? " residue" : " residues") + " repaired";
-  result.input_lines.emplace_back(label, text);
+  result.inputs.lines.emplace_back(label, text);
   constexpr std::size_t kMostGroups = 8;
   for (std::size_t i = 0; i < std::min(p.groups.size(), kMostGroups); ++i)
-    result.input_lines.emplace_back(i == 0 ? "Beside the chains, " + role : "", p.groups[i]);
+    result.inputs.lines.emplace_back(i == 0 ? "Beside the chains, " + role : "", p.groups[i]);
   if (p.groups.size() > kMostGroups)
-    result.input_lines.emplace_back("", "and " + std::to_string(p.groups.size() - kMostGroups) + " more");
-  for (const std::string& warning : p.warnings) result.warnings.push_back({"of the " + role + ", " + warning});
+    result.inputs.lines.emplace_back("", "and " + std::to_string(p.groups.size() - kMostGroups) + " more");
+  for (const std::string& warning : p.warnings) result.inputs.warnings.push_back({"of the " + role + ", " + warning});
   if (!p.gaps.empty())
-    result.warnings.push_back({"the " + role + " lacks residues " + joined(p.gaps, 4) +
-                               "; they are not modelled, and chain ends there stay uncharged"});
+    result.inputs.warnings.push_back({"the " + role + " lacks residues " + joined(p.gaps, 4) +
+                                      "; they are not modelled, and chain ends there stay uncharged"});
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ void note_states(CompareResult& result, const StateOrigin& source, const StateOr
                  const std::string& radii_note) {
   note_state(result, "source", source);
   note_state(result, "target", target);
-  if (!radii_note.empty()) result.input_lines.emplace_back("Radii", radii_note);
+  if (!radii_note.empty()) result.inputs.lines.emplace_back("Radii", radii_note);
   double ms = 0;
   for (const StateOrigin* state : {&source, &target}) {
     if (state->preparation) ms += 1000 * state->preparation->seconds;

@@ -50,7 +50,7 @@ DerivedArrays derive(const Molecule& source, const CompareResult& result) {
   for (const std::int32_t residue : s.residue) {
     arrays.residue_number.push_back(residue < 0 ? 0 : source.residues.at(static_cast<std::size_t>(residue)).number);
   }
-  if (!result.has_potential) return arrays;
+  if (!result.potential.compared) return arrays;
   for (std::size_t v = 0; v < s.potential_source.size(); ++v) {
     const float a = s.potential_source[v], b = s.potential_target.at(v);
     arrays.difference.push_back(b - a);
@@ -88,7 +88,7 @@ SurfaceArrays::SurfaceArrays(const Molecule& source, const CompareResult& result
   if (!s.turned.empty()) file.point_arrays.emplace_back("turned", s.turned);
   file.active_normals = "normal";
   file.active_scalars = "displacement";
-  if (result.has_potential) {
+  if (result.potential.compared) {
     file.point_arrays.emplace_back("potential_source", s.potential_source);
     file.point_arrays.emplace_back("potential_target", s.potential_target);
     file.point_arrays.emplace_back("potential_difference", derived.difference);

@@ -35,4 +35,16 @@ const std::vector<OptionRow<MatrixStudy>>& matrix_settings() {
   return all;
 }
 
+const std::vector<OptionRow<MatrixStudy>>& merge_settings() {
+  static const std::vector<OptionRow<MatrixStudy>> all = [] {
+    std::vector<OptionRow<MatrixStudy>> rows;
+    for (const OptionRow<MatrixStudy>& row : matrix_settings()) {
+      if (row.name == "cluster-by" || row.name == "overwrite") rows.push_back(row);
+    }
+    rows.back().help = "Replace results that exist";  // there is no run to start again
+    return rows;
+  }();
+  return all;
+}
+
 }  // namespace espdiff

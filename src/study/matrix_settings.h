@@ -10,5 +10,7 @@ namespace espdiff {
 
 /// In the order of the manuals.
 const std::vector<OptionRow<MatrixStudy>>& matrix_settings();
+/// Those of them that the merging of its parts has, too.
+const std::vector<OptionRow<MatrixStudy>>& merge_settings();
 
 }  // namespace espdiff

@@ -70,7 +70,8 @@ void PairInterface::add_to(CompareResult& result) const {
   ComplementarityResult both{request_, {&source, &target}, std::vector<InterfaceChange>(2)};
   for (std::size_t side = 0; side < 2; ++side) {
     const Molecule &from = source.sides[side].molecule, &to = target.sides[side].molecule;
-    both.changes[side].partner_of = paired_residues(from, to, side == 0 ? result.pairing : pair_atoms(from, to));
+    both.changes[side].partner_of =
+        paired_residues(from, to, side == 0 ? result.alignment.pairing : pair_atoms(from, to));
   }
   result.interface = std::make_shared<const InterfaceComparison>(
       InterfaceComparison{request_.first, request_.second, source.numbers(), target.numbers(), interface_rows(both)});

@@ -33,7 +33,7 @@ PairAnswer PairSeries::step(const StatePtr& target, Engine& engine, const Progre
   answer.provenance = provenance_of(engine, study_.command_line, states_.source(), states_.frame());
   answer.result = series_->step(sides.target, start_, progress);
   note_states(answer.result, *sides.source_origin, *sides.target_origin, {});
-  if (!answer.result.has_potential) answer.result.shapes_because = states_.plan().because();
+  if (!answer.result.potential.compared) answer.result.inputs.shapes_because = states_.plan().because();
   answer.source_molecule = states_.surface();
   answer.target_molecule = states_.frame().loaded.molecule;
   return answer;

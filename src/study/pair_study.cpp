@@ -56,8 +56,8 @@ PairAnswer run_pair(const PairStudy& study, Engine& engine, const Progress& prog
   answer.result = compare(engine, source.side(), target.side(), study.options, progress);
   interface.add_to(answer.result);
   note_states(answer.result, source.loaded, target.loaded, radii_note);
-  if (!answer.result.has_potential)
-    answer.result.shapes_because = plan.because().empty() ? study.source->shapes_because : plan.because();
+  if (!answer.result.potential.compared)
+    answer.result.inputs.shapes_because = plan.because().empty() ? study.source->shapes_because : plan.because();
   answer.source_molecule = std::move(source_molecule);
   answer.target_molecule = std::move(target_molecule);
   return answer;

@@ -31,5 +31,9 @@ void return_free_memory();
 /// raises the size from which it does so whenever a large array is freed, and later ones leave gaps in its heap. For a
 /// program, not a library: it is the whole process' setting. What the user set by MALLOC_... stays.
 void keep_large_arrays_apart();
+/// The same between the stages of a run: where much memory is in use, only arrays above 1/16 of it get pages of their
+/// own. Pages that are given back and fetched again at each step would take a tenth of the time of a large molecule.
+/// Does nothing unless keep_large_arrays_apart() was called.
+void keep_larger_arrays_apart();
 
 }  // namespace espdiff

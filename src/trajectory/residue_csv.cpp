@@ -41,8 +41,8 @@ bool is_part_of_head(const std::string& text) {
 /// The names of the residues' partners under their columns; empty if the target's residues have the same names.
 std::vector<std::string> partners_of(const std::vector<std::string>& columns, const Molecule& source,
                                      const Molecule& target, const CompareResult& result) {
-  if (result.pairing.pairs.empty()) return {};
-  const std::vector<std::int32_t> target_of = paired_residues(source, target, result.pairing);
+  if (result.alignment.pairing.pairs.empty()) return {};
+  const std::vector<std::int32_t> target_of = paired_residues(source, target, result.alignment.pairing);
   std::vector<std::string> partners{""};  // of the frame
   bool differ = false;
   for (const ResidueRow& row : result.residues) {

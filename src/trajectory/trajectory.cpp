@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "certificate/result.h"
-#include "compare/readings.h"
+#include "compare/stages/readings.h"
 #include "io/text/text_cursor.h"
 #include "mapping/input.h"
 #include "report/residue_values.h"

@@ -30,11 +30,11 @@ std::vector<std::uint8_t> residues(bool (*in)(std::size_t)) {
 
 TEST_CASE("a region of all residues has the whole's numbers and verdict") {
   const CompareResult result = compared(residues([](std::size_t) { return true; }));
-  REQUIRE(static_cast<bool>(result.region));
-  const CompareResult& region = *result.region;
-  CHECK(region.metrics.area_A2 == result.metrics.area_A2);
-  CHECK(region.metrics.mean_abs_difference == result.metrics.mean_abs_difference);
-  CHECK(region.metrics.hodgkin_index == result.metrics.hodgkin_index);
+  REQUIRE(result.parts.size() == 1);
+  const espdiff::PartResult& region = result.parts.front();
+  CHECK(region.potential.metrics.area_A2 == result.potential.metrics.area_A2);
+  CHECK(region.potential.metrics.mean_abs_difference == result.potential.metrics.mean_abs_difference);
+  CHECK(region.potential.metrics.hodgkin_index == result.potential.metrics.hodgkin_index);
   CHECK(region.rmsd_A == doctest::Approx(result.rmsd_A).epsilon(1e-6));
   CHECK(region.certificate.unmatched_source == doctest::Approx(result.certificate.unmatched_source));
   CHECK(region.certificate.unmatched_target == doctest::Approx(result.certificate.unmatched_target));
@@ -46,13 +46,14 @@ TEST_CASE("a region of all residues has the whole's numbers and verdict") {
 TEST_CASE("two complementary regions share the area, and their means add up to the whole's") {
   const CompareResult first = compared(residues([](std::size_t r) { return r % 4 == 0; })),
                       second = compared(residues([](std::size_t r) { return r % 4 != 0; }));
-  const Metrics &a = first.region->metrics, &b = second.region->metrics, &whole = first.metrics;
-  CHECK(first.metrics.mean_abs_difference == second.metrics.mean_abs_difference);
+  const Metrics &a = first.parts.at(0).potential.metrics, &b = second.parts.at(0).potential.metrics,
+                &whole = first.potential.metrics;
+  CHECK(first.potential.metrics.mean_abs_difference == second.potential.metrics.mean_abs_difference);
   CHECK(a.area_A2 + b.area_A2 == doctest::Approx(whole.area_A2).epsilon(1e-5));
   CHECK(a.area_A2 * a.mean_abs_difference + b.area_A2 * b.mean_abs_difference ==
         doctest::Approx(whole.area_A2 * whole.mean_abs_difference).epsilon(1e-5));
   CHECK(a.mean_abs_difference != doctest::Approx(b.mean_abs_difference));
-  for (const ResidueRow& row : first.region->residues) CHECK(row.residue % 4 == 0);
+  for (const ResidueRow& row : first.parts.at(0).residues) CHECK(row.residue % 4 == 0);
 }
 
-TEST_CASE("without a region there is none") { CHECK(!compared({}).region); }
+TEST_CASE("without a region there is none") { CHECK(compared({}).parts.empty()); }

@@ -1,5 +1,6 @@
 // trusted_area.cpp: reasons by triangle, their sums, verdicts and names, on strips of triangles made by hand.
 #include "certificate/trusted_area.h"
+
 #include "certificate/slip.h"
 
 #include <doctest/doctest.h>
@@ -176,7 +177,7 @@ TEST_CASE("three verdicts by the smaller share, and one by the share that is req
     result.certificate.converged = true;
     result.certificate.trusted.source = source;
     result.certificate.trusted.target = target;
-    espdiff::judge(result, none, required);
+    espdiff::judge(result, result.inputs.warnings, none, required);
     return espdiff::verdict_of(result.certificate);
   };
   CHECK(verdict(0.97, 0.95, 0.5) == "TRUSTWORTHY");
@@ -187,7 +188,7 @@ TEST_CASE("three verdicts by the smaller share, and one by the share that is req
   CHECK(result.certificate.reasons[0].plain() ==
         "94 % of the source's surface and 90 % of the target's are trusted (limit 95 %)");
   CHECK(verdict(kNan, 0.9, 0.5) == "NOT TRUSTWORTHY");
-  result.warnings = {{"a mirror image", true}};
+  result.inputs.warnings = {{"a mirror image", true}};
   CHECK(verdict(1, 1, 0.5) == "NOT TRUSTWORTHY");
 }
 
@@ -234,14 +235,14 @@ TEST_CASE("parts are named by helix, strand and loop where the backbone is known
 
 TEST_CASE("the whole surface is estimated from the residues' own surfaces, and bounded by the largest difference") {
   CompareResult result;
-  result.has_potential = true;
+  result.potential.compared = true;
   MappedSurface& s = result.surface = separate_triangles(4);
   s.why = codes({Why::kTrusted, Why::kTrusted, Why::kSlipped, Why::kUnmatched});
   s.potential_source.assign(12, 0);
   s.potential_target.assign(12, 1);
   s.potential_target[7] = -5;
-  result.metrics.area_A2 = 2;
-  result.metrics.mean_abs_difference = 1;
+  result.potential.metrics.area_A2 = 2;
+  result.potential.metrics.mean_abs_difference = 1;
   result.residues = espdiff::residue_rows(s, espdiff::surface_areas(s), 4, true);
   for (espdiff::ResidueRow& row : result.residues) row.own_difference = 0.5;
   result.residues[2].own_difference = 2;  // twice what its own surfaces say, as in the trusted part: 4
@@ -249,7 +250,7 @@ TEST_CASE("the whole surface is estimated from the residues' own surfaces, and b
   const espdiff::WholeSurface whole = espdiff::whole_surface(result);
   CHECK(whole.estimate == doctest::Approx((1 + 1 + 4 + 1) / 4.0));
   CHECK(whole.at_most == doctest::Approx((1 + 1 + 5 + 5) / 4.0));
-  result.has_potential = false;
+  result.potential.compared = false;
   CHECK(std::isnan(espdiff::whole_surface(result).estimate));
 }
 

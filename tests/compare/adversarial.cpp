@@ -39,8 +39,8 @@ CompareResult mapped_or_reported(const char* name, const Molecule& source, const
       "%s: %s; unmatched %.2f %% of the source, %.2f %% of the target; target to mapped at most %.2f A; "
       "same residue %.1f %%; %zu vertices added, %zu lost\n",
       name, c.trustworthy ? "trustworthy" : "NOT trustworthy", 100 * c.unmatched_source, 100 * c.unmatched_target,
-      c.target_to_mapped.max, 100 * c.same_residue_area_fraction, r.morph_report.n_vertices_added,
-      r.morph_report.n_vertices_unmatched);
+      c.target_to_mapped.max, 100 * c.same_residue_area_fraction, r.mapping.morph.n_vertices_added,
+      r.mapping.morph.n_vertices_unmatched);
   for (const espdiff::Message& reason : c.reasons) std::printf("    %s\n", reason.plain().c_str());
   CHECK(c.trustworthy == c.reasons.empty());
   CHECK(c.self_intersecting_pairs == 0);

@@ -32,14 +32,17 @@ Side moved_side(Side side, const RigidTransform& t) {
 }
 
 void check_close(const CompareResult& a, const CompareResult& b, double tolerance) {
-  CHECK(a.metrics.area_A2 == doctest::Approx(b.metrics.area_A2).epsilon(tolerance));
-  CHECK(a.metrics.mean_abs_difference == doctest::Approx(b.metrics.mean_abs_difference).epsilon(tolerance));
-  CHECK(a.metrics.rms_difference == doctest::Approx(b.metrics.rms_difference).epsilon(tolerance));
-  CHECK(std::fabs(a.metrics.mean_signed_difference - b.metrics.mean_signed_difference) <
-        tolerance * b.metrics.mean_abs_difference);
-  CHECK(std::fabs(a.metrics.sign_change_area_fraction - b.metrics.sign_change_area_fraction) < tolerance);
-  CHECK(a.metrics.hodgkin_index == doctest::Approx(b.metrics.hodgkin_index).epsilon(tolerance));
-  CHECK(a.metrics.mean_displacement_A == doctest::Approx(b.metrics.mean_displacement_A).epsilon(tolerance));
+  CHECK(a.potential.metrics.area_A2 == doctest::Approx(b.potential.metrics.area_A2).epsilon(tolerance));
+  CHECK(a.potential.metrics.mean_abs_difference ==
+        doctest::Approx(b.potential.metrics.mean_abs_difference).epsilon(tolerance));
+  CHECK(a.potential.metrics.rms_difference == doctest::Approx(b.potential.metrics.rms_difference).epsilon(tolerance));
+  CHECK(std::fabs(a.potential.metrics.mean_signed_difference - b.potential.metrics.mean_signed_difference) <
+        tolerance * b.potential.metrics.mean_abs_difference);
+  CHECK(std::fabs(a.potential.metrics.sign_change_area_fraction - b.potential.metrics.sign_change_area_fraction) <
+        tolerance);
+  CHECK(a.potential.metrics.hodgkin_index == doctest::Approx(b.potential.metrics.hodgkin_index).epsilon(tolerance));
+  CHECK(a.potential.metrics.mean_displacement_A ==
+        doctest::Approx(b.potential.metrics.mean_displacement_A).epsilon(tolerance));
   CHECK(a.rmsd_A == doctest::Approx(b.rmsd_A).epsilon(1e-9));
 }
 
@@ -56,25 +59,25 @@ TEST_CASE("a rigid copy with its map differs by almost nothing") {
       size += std::fabs(static_cast<double>(value)) / static_cast<double>(r.surface.positions.size());
     std::printf(
         "rigid copy, %s: mean |difference| %.2e of mean |potential| %.3f, rms %.2e, displacement %.4f A, rmsd %.1e A\n",
-        engine->back_end().c_str(), r.metrics.mean_abs_difference, size, r.metrics.rms_difference,
-        r.metrics.mean_displacement_A, r.rmsd_A);
+        engine->back_end().c_str(), r.potential.metrics.mean_abs_difference, size, r.potential.metrics.rms_difference,
+        r.potential.metrics.mean_displacement_A, r.rmsd_A);
     CHECK(r.rmsd_A < 1e-6);
-    CHECK(r.metrics.mean_abs_difference < 0.01 * size);
-    CHECK(r.metrics.mean_displacement_A < 0.03);
-    CHECK(r.metrics.sign_change_area_fraction < 0.01);
-    CHECK(r.metrics.hodgkin_index > 0.999);
+    CHECK(r.potential.metrics.mean_abs_difference < 0.01 * size);
+    CHECK(r.potential.metrics.mean_displacement_A < 0.03);
+    CHECK(r.potential.metrics.sign_change_area_fraction < 0.01);
+    CHECK(r.potential.metrics.hodgkin_index > 0.999);
     CHECK(r.certificate.mapped_to_target.mean < 0.02);
     CHECK(r.certificate.corrupt_area_fraction < 1e-3);
     CHECK(r.certificate.converged);
-    CHECK(r.n_outside_source_map == 0);
-    CHECK(r.n_outside_target_map == 0);
+    CHECK(r.potential.n_outside_source_map == 0);
+    CHECK(r.potential.n_outside_target_map == 0);
     // Every vertex lies in its own frame; the motion relates the two up to the displacement.
     double worst = 0, least_cosine = 1;
     for (std::size_t v = 0; v < r.surface.positions.size(); ++v) {
-      const Vec3d there = r.source_to_target.apply(r.surface.source_positions[v]);
+      const Vec3d there = r.alignment.source_to_target.apply(r.surface.source_positions[v]);
       worst = std::max(
           worst, std::fabs(norm(r.surface.positions[v] - there) - static_cast<double>(r.surface.displacement[v])));
-      const Vec3d turned = r.source_to_target.rotate(static_cast<Vec3d>(r.surface.source_normals[v]));
+      const Vec3d turned = r.alignment.source_to_target.rotate(static_cast<Vec3d>(r.surface.source_normals[v]));
       least_cosine = std::min(least_cosine, dot(turned, static_cast<Vec3d>(r.surface.normals[v])));
     }
     CHECK(worst < 1e-4);
@@ -95,8 +98,9 @@ TEST_CASE("a rigid motion of either side, and the order of atoms in a residue, c
   for (const auto& engine : back_ends()) {
     const CompareResult r = compare(*engine, a.input(), b.input(), quick_options(), {});
     std::printf("pair of clouds, %s: mean |difference| %.4f, displacement %.4f A, rmsd %.3f A\n",
-                engine->back_end().c_str(), r.metrics.mean_abs_difference, r.metrics.mean_displacement_A, r.rmsd_A);
-    CHECK(r.metrics.mean_abs_difference > 0.01);
+                engine->back_end().c_str(), r.potential.metrics.mean_abs_difference,
+                r.potential.metrics.mean_displacement_A, r.rmsd_A);
+    CHECK(r.potential.metrics.mean_abs_difference > 0.01);
     const RigidTransform motion = rigid({0, 0.6, 0.8}, 1.3, {12, 34, -56}), other = rigid({1, 0, 0}, 2.7, {-70, 8, 9});
     const auto metrics_of = [&](const Side& s, const Side& t) {
       return compare(*engine, s.input(), t.input(), quick_options(), {});
@@ -141,8 +145,9 @@ TEST_CASE("maps in two known units are compared in the source's") {
     for (float& value : in_volt.map.values)
       value = static_cast<float>(value * 0.0258519998);  // kT/e at 300 K, CODATA 2018
     const CompareResult s = compare(*engine, a.input(), in_volt.input(), quick_options(), {});
-    CHECK(s.unit == PotentialUnit::kKtPerE);
-    CHECK(s.metrics.mean_abs_difference == doctest::Approx(r.metrics.mean_abs_difference).epsilon(1e-5));
+    CHECK(s.potential.unit == PotentialUnit::kKtPerE);
+    CHECK(s.potential.metrics.mean_abs_difference ==
+          doctest::Approx(r.potential.metrics.mean_abs_difference).epsilon(1e-5));
   }
 }
 
@@ -150,7 +155,7 @@ TEST_CASE("without maps only shapes are compared; the residues' areas sum to the
   const Side a = make_side(1, 0), b = make_side(2, 0.3);
   for (const auto& engine : back_ends()) {
     const CompareResult r = compare(*engine, a.shape(), b.shape(), quick_options(), {});
-    CHECK_FALSE(r.has_potential);
+    CHECK_FALSE(r.potential.compared);
     CHECK(r.surface.potential_source.empty());
     double area = 0;
     for (const auto& row : r.residues) area += row.area_A2;
@@ -241,12 +246,12 @@ TEST_CASE("surface outside a map is counted, excluded and not trusted") {
   part.map.values.resize(part.map.lattice.n_points());
   for (const auto& engine : back_ends()) {
     const CompareResult r = compare(*engine, a.input(), part.input(), quick_options(), {});
-    CHECK(r.n_outside_target_map > 0);
-    CHECK(r.n_outside_source_map == 0);
-    CHECK(r.metrics.area_A2 < 0.8 * r.area_mapped_A2);
-    CHECK(std::isfinite(r.metrics.mean_abs_difference));
+    CHECK(r.potential.n_outside_target_map > 0);
+    CHECK(r.potential.n_outside_source_map == 0);
+    CHECK(r.potential.metrics.area_A2 < 0.8 * r.area_mapped_A2);
+    CHECK(std::isfinite(r.potential.metrics.mean_abs_difference));
     CHECK(r.certificate.outside_maps > 0.05);
-    CHECK(r.certificate.outside_maps < 1 - r.metrics.area_A2 / r.area_mapped_A2);
+    CHECK(r.certificate.outside_maps < 1 - r.potential.metrics.area_A2 / r.area_mapped_A2);
     CHECK(r.certificate.trusted.by_why[static_cast<std::size_t>(espdiff::Why::kNoPotential)] > 0.05);
     CHECK(r.certificate.trusted.source < 0.9);
   }
@@ -277,6 +282,6 @@ TEST_CASE("potentials are compared when a closed cavity of the source is removed
   options.align = espdiff::AlignAtoms::kNone;
   const CompareResult r = compare(*engine, shell.input(), wider.input(), options, {});
   CHECK(r.source_surface.n_cavities_left_out == 1);
-  CHECK(r.metrics.area_A2 > 0.9 * r.source_surface.area_A2);
-  CHECK(r.metrics.mean_abs_difference > 0);
+  CHECK(r.potential.metrics.area_A2 > 0.9 * r.source_surface.area_A2);
+  CHECK(r.potential.metrics.mean_abs_difference > 0);
 }

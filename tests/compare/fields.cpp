@@ -93,7 +93,7 @@ TEST_CASE("the potential's numbers do not depend on other fields, and the mappin
   const CompareResult without = compared(*engine, source, target, quick_options()),
                       with = compared(*engine, source, target, with_fields({{"charge", "charge"}}));
   CHECK(hash_of(without) == hash_of(with));
-  CHECK(with.fields.at(0).metrics.area_A2 == with.metrics.area_A2);  // the same trusted area
+  CHECK(with.fields.at(0).metrics.area_A2 == with.potential.metrics.area_A2);  // the same trusted area
 }
 
 TEST_CASE("fields have the same bits for 1, 2 and 4 threads") {
@@ -131,12 +131,12 @@ TEST_CASE("residues and parts have the means of their own area") {
     sum += row.area_A2 * row.mean_abs_difference;
   }
   CHECK(sum / area == doctest::Approx(field.metrics.mean_abs_difference).epsilon(0.02));
-  REQUIRE(r.region != nullptr);
-  REQUIRE(r.region->fields.size() == 1);
-  const auto& part = r.region->fields[0].metrics;
+  REQUIRE(r.parts.size() == 2);
+  REQUIRE(r.parts[0].fields.size() == 1);
+  const auto& part = r.parts[0].fields[0].metrics;
   CHECK(part.area_A2 > 0);
   CHECK(part.area_A2 < 0.9 * field.metrics.area_A2);
-  CHECK(r.patches.at(0).result->fields.at(0).metrics.mean_abs_difference == part.mean_abs_difference);
+  CHECK(r.parts[1].fields.at(0).metrics.mean_abs_difference == part.mean_abs_difference);
 }
 
 TEST_CASE("atoms without a value leave vertices out, which are counted") {
@@ -150,10 +150,10 @@ TEST_CASE("atoms without a value leave vertices out, which are counted") {
   const FieldResult& field = r.fields.at(0);
   CHECK(field.n_missing_source > 0);
   CHECK(field.n_missing_target > 0);
-  CHECK(field.metrics.area_A2 < 0.8 * r.metrics.area_A2);
+  CHECK(field.metrics.area_A2 < 0.8 * r.potential.metrics.area_A2);
   CHECK(std::isfinite(field.metrics.mean_abs_difference));
-  REQUIRE(!r.warnings.empty());
-  CHECK(r.warnings.back().text.plain() ==
+  REQUIRE(!r.inputs.warnings.empty());
+  CHECK(r.inputs.warnings.back().text.plain() ==
         "field half: " + path +
             ": 7 of 12 residues of the target (molecule.pqr) have no value there, the first is TYR 3 of chain A");
 }
@@ -172,9 +172,9 @@ TEST_CASE("a map is read as the potential is, at the offset too") {
     const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
     const CompareResult r = compared(*engine, source, target, options);
     CHECK(r.fields.at(0).metrics.mean_abs_difference ==
-          doctest::Approx(r.metrics.mean_abs_difference).epsilon(offset_A > 0 ? 0.05 : 1e-3));
+          doctest::Approx(r.potential.metrics.mean_abs_difference).epsilon(offset_A > 0 ? 0.05 : 1e-3));
     CHECK(r.fields.at(0).metrics.hodgkin_index ==
-          doctest::Approx(r.metrics.hodgkin_index).epsilon(offset_A > 0 ? 0.05 : 1e-3));
+          doctest::Approx(r.potential.metrics.hodgkin_index).epsilon(offset_A > 0 ? 0.05 : 1e-3));
   }
 }
 
@@ -188,8 +188,8 @@ TEST_CASE("a map that lies elsewhere compares nothing, which is said") {
   const CompareResult r = compared(*engine, source, source, with_fields({{"water", "map:" + folder.file("away.dx")}}));
   CHECK(r.fields.at(0).metrics.area_A2 == 0);
   const std::string n = std::to_string(r.surface.positions.size());
-  REQUIRE(!r.warnings.empty());
-  CHECK(r.warnings.back().text.plain() ==
+  REQUIRE(!r.inputs.warnings.empty());
+  CHECK(r.inputs.warnings.back().text.plain() ==
         "field water: no point has a value in both states (" + n + " vertices of the source and " + n +
             " of the target have none), so that nothing was compared; a map has to lie where its structure does");
 }

@@ -94,7 +94,7 @@ inline std::uint64_t hash_of(const CompareResult& r) {
       .add(s.potential_source)
       .add(s.potential_target);
   hash.add(s.displacement).add(s.path_length).add(s.residue).add(s.corrupt);
-  for (const auto* m : {&r.metrics, &r.metrics_all}) {
+  for (const auto* m : {&r.potential.metrics, &r.potential.metrics_all}) {
     hash.add(m->area_A2).add(m->mean_abs_difference).add(m->rms_difference).add(m->mean_signed_difference);
     hash.add(m->sign_change_area_fraction)
         .add(m->hodgkin_index)
@@ -105,7 +105,7 @@ inline std::uint64_t hash_of(const CompareResult& r) {
   for (const auto* d : {&r.certificate.mapped_to_target, &r.certificate.target_to_mapped})
     hash.add(d->mean).add(d->p95).add(d->max);
   for (const auto& row : r.residues) hash.add(row.area_A2).add(row.mean_abs_difference).add(row.mean_displacement_A);
-  return hash.add(r.rmsd_A).add(r.deform_report.iterations).add(r.regularize_report.iterations).value();
+  return hash.add(r.rmsd_A).add(r.mapping.deform.iterations).add(r.mapping.regularize.iterations).value();
 }
 
 }  // namespace espdiff_test

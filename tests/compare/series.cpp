@@ -62,7 +62,7 @@ TEST_CASE("steps that start from the source give the same bits as comparisons on
   Series series(*engine, motion.source.input(), quick_options());
   for (const Side& frame : motion.frames) {
     const CompareResult step = series.step(frame.input(), StartFrom::kSource, {});
-    CHECK(step.start == StartFrom::kSource);
+    CHECK(step.mapping.start == StartFrom::kSource);
     CHECK(hash_of(step) == hash_of(compare(*engine, motion.source.input(), frame.input(), quick_options(), {})));
   }
 }
@@ -76,12 +76,13 @@ TEST_CASE("a surface continued from frame to frame by the morph ends where the d
     CAPTURE(f);
     const CompareResult on = along.step(motion.frames[f].input(), StartFrom::kPrevious, {});
     const CompareResult direct = apart.step(motion.frames[f].input(), StartFrom::kSource, {});
-    CHECK(on.start == (f == 0 ? StartFrom::kSource : StartFrom::kPrevious));
+    CHECK(on.mapping.start == (f == 0 ? StartFrom::kSource : StartFrom::kPrevious));
     CHECK(on.certificate.mapped_to_target.mean < 0.02);
     CHECK(on.certificate.self_intersecting_pairs == 0);
     CHECK(on.certificate.unmatched_source < 0.02);
-    CHECK(on.metrics.mean_signed_difference == doctest::Approx(direct.metrics.mean_signed_difference).epsilon(0.05));
-    CHECK(on.metrics.mean_path_length_A >= on.metrics.mean_displacement_A);
+    CHECK(on.potential.metrics.mean_signed_difference ==
+          doctest::Approx(direct.potential.metrics.mean_signed_difference).epsilon(0.05));
+    CHECK(on.potential.metrics.mean_path_length_A >= on.potential.metrics.mean_displacement_A);
     // Vertices of the source's own surface come first in both.
     const std::size_t n = on.source_surface.n_vertices;
     REQUIRE(std::min(on.surface.positions.size(), direct.surface.positions.size()) >= n);
@@ -95,8 +96,8 @@ TEST_CASE("a surface continued from frame to frame by the morph ends where the d
     }
     CHECK(n_both > n * 9 / 10);
     CHECK(sum / static_cast<double>(n_both) < 0.01);
-    n_along += on.morph_report.steps;
-    n_apart += direct.morph_report.steps;
+    n_along += on.mapping.morph.steps;
+    n_apart += direct.mapping.morph.steps;
   }
   CHECK(n_along < n_apart);
 }
@@ -107,7 +108,7 @@ TEST_CASE("the morph continued to the same target leaves the surface in place") 
   Series series(*engine, motion.source.input(), quick_options());
   const CompareResult once = series.step(motion.frames[1].input(), StartFrom::kPrevious, {});
   const CompareResult again = series.step(motion.frames[1].input(), StartFrom::kPrevious, {});
-  CHECK(again.start == StartFrom::kPrevious);
+  CHECK(again.mapping.start == StartFrom::kPrevious);
   REQUIRE(again.surface.positions.size() == once.surface.positions.size());
   for (std::size_t v = 0; v < once.surface.positions.size(); ++v)
     CHECK(norm(once.surface.positions[v] - again.surface.positions[v]) < 0.02);  // some even out a little further
@@ -135,13 +136,13 @@ TEST_CASE(
   while (lost <= at_start + 0.005 && closed < 10) {
     closed *= 1.8;  // the last target is then less than half as far as the source
     const CompareResult next = step(19 - closed);
-    CHECK(next.start == StartFrom::kPrevious);
+    CHECK(next.mapping.start == StartFrom::kPrevious);
     CHECK(next.certificate.unmatched_source >= lost - 1e-4);
     lost = next.certificate.unmatched_source;
   }
   REQUIRE(lost > at_start + 0.005);
   const CompareResult anew = step(18.5 - closed);
-  CHECK(anew.start == StartFrom::kSource);
+  CHECK(anew.mapping.start == StartFrom::kSource);
   const espdiff::Molecule target = apart(18.5 - closed);
   CHECK(hash_of(anew) == hash_of(compare(*engine, {&source, nullptr}, {&target, nullptr}, quick_options(), {})));
 }
@@ -155,9 +156,10 @@ TEST_CASE("rigid domains continue from frame to frame too") {
   for (const std::size_t f : {0, 1, 2}) {
     const CompareResult on = along.step(motion.frames[f].input(), StartFrom::kPrevious, {});
     const CompareResult direct = apart.step(motion.frames[f].input(), StartFrom::kSource, {});
-    CHECK(on.domains.size() == 2);
+    CHECK(on.alignment.domains.size() == 2);
     CHECK(on.certificate.mapped_to_target.mean < 0.02);
-    CHECK(on.metrics.mean_displacement_A == doctest::Approx(direct.metrics.mean_displacement_A).epsilon(0.1));
+    CHECK(on.potential.metrics.mean_displacement_A ==
+          doctest::Approx(direct.potential.metrics.mean_displacement_A).epsilon(0.1));
   }
 }
 
@@ -171,12 +173,13 @@ TEST_CASE("along a motion steps start from the previous one, need fewer iteratio
   for (std::size_t f = 0; f < motion.frames.size(); ++f) {
     const CompareResult warm = along.step(motion.frames[f].input(), StartFrom::kPrevious, {});
     const CompareResult cold = apart.step(motion.frames[f].input(), StartFrom::kSource, {});
-    CHECK(warm.start == (f == 0 ? StartFrom::kSource : StartFrom::kPrevious));
-    n_along += warm.deform_report.iterations;
-    n_apart += cold.deform_report.iterations;
+    CHECK(warm.mapping.start == (f == 0 ? StartFrom::kSource : StartFrom::kPrevious));
+    n_along += warm.mapping.deform.iterations;
+    n_apart += cold.mapping.deform.iterations;
     CHECK(warm.certificate.mapped_to_target.mean < 0.05);
     CHECK(warm.certificate.corrupt_area_fraction <= cold.certificate.corrupt_area_fraction + 0.002);
-    CHECK(warm.metrics.mean_signed_difference == doctest::Approx(cold.metrics.mean_signed_difference).epsilon(0.05));
+    CHECK(warm.potential.metrics.mean_signed_difference ==
+          doctest::Approx(cold.potential.metrics.mean_signed_difference).epsilon(0.05));
   }
   CHECK(n_along < n_apart);
 }
@@ -187,7 +190,7 @@ TEST_CASE("a step starts from the source if the previous target is farther away 
   for (const Method method : {Method::kMorph, Method::kDeform}) {
     Series series(*engine, motion.source.input(), options_of(method));
     series.step(motion.frames[3].input(), StartFrom::kPrevious, {});
-    CHECK(series.step(bent(motion.source, 0.3).input(), StartFrom::kPrevious, {}).start == StartFrom::kSource);
+    CHECK(series.step(bent(motion.source, 0.3).input(), StartFrom::kPrevious, {}).mapping.start == StartFrom::kSource);
   }
 }
 
@@ -200,7 +203,7 @@ TEST_CASE("a step that failed leaves the series usable, and the next one starts 
     Series series(*engine, motion.source.input(), options_of(method));
     const auto starts_anew = [&] {
       CHECK_FALSE(series.state().has_value());
-      return series.step(motion.frames[1].input(), StartFrom::kPrevious, {}).start == StartFrom::kSource;
+      return series.step(motion.frames[1].input(), StartFrom::kPrevious, {}).mapping.start == StartFrom::kSource;
     };
     series.step(motion.frames[0].input(), StartFrom::kPrevious, {});
     CHECK_THROWS_AS(series.step(motion.frames[1].shape(), StartFrom::kPrevious, {}), espdiff::InputError);
@@ -227,12 +230,12 @@ TEST_CASE("a series restored from its saved state gives the same bits") {
     whole.step(motion.frames[1].input(), StartFrom::kPrevious, {});
     write_series_state(path, whole.state().value(), "run 1, frame 1");
     const CompareResult expected = whole.step(motion.frames[2].input(), StartFrom::kPrevious, {});
-    REQUIRE(expected.start == StartFrom::kPrevious);
+    REQUIRE(expected.mapping.start == StartFrom::kPrevious);
 
     Series resumed(*engine, motion.source.input(), options_of(method));
     resumed.restore(espdiff::read_series_state(path, "run 1, frame 1"));
     const CompareResult result = resumed.step(motion.frames[2].input(), StartFrom::kPrevious, {});
-    CHECK(result.start == StartFrom::kPrevious);
+    CHECK(result.mapping.start == StartFrom::kPrevious);
     CHECK(hash_of(result) == hash_of(expected));
     CHECK(result.surface.unmatched == expected.surface.unmatched);
     // Also the state it would pass on.

@@ -29,10 +29,8 @@ Texts charges_of(const Molecule& molecule) {
 }
 
 Texts paired_charges_of(const Molecule& a, const Molecule& b) {
-  CompareResult result;
-  result.pairing = pair_atoms(a, b);
   std::vector<Warning> warnings;
-  check_paired_charges(ResidueView(a), ResidueView(b), result, warnings);
+  check_paired_charges(ResidueView(a), ResidueView(b), pair_atoms(a, b), warnings);
   return texts_of(warnings);
 }
 

@@ -17,7 +17,7 @@ namespace {
 std::vector<std::string> composition_of(const Molecule& a, const Molecule& b,
                                         const std::vector<std::uint8_t>& region = {}) {
   CompareResult result;
-  result.pairing = pair_atoms(a, b);
+  result.alignment.pairing = pair_atoms(a, b);
   std::vector<std::string> texts;
   for (const Warning& warning : composition_warnings(a, b, region, result)) {
     texts.push_back(warning.text.plain());
@@ -55,7 +55,7 @@ TEST_CASE("composition_warnings: a group near the surface has its area, one far 
   Molecule zinc = bare;
   add_ion(zinc, "ZN", 2);
   CompareResult result;
-  result.pairing = pair_atoms(zinc, bare);
+  result.alignment.pairing = pair_atoms(zinc, bare);
   // A triangle of 2 A^2 beside the ion, and one far away.
   result.surface.source_positions = {{5, -6, 3}, {7, -6, 3}, {5, -4, 3}, {50, 0, 0}, {52, 0, 0}, {50, 2, 0}};
   result.surface.positions = result.surface.source_positions;

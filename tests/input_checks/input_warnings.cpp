@@ -13,7 +13,7 @@
 #include "support/test_data.h"
 
 using namespace espdiff_test;
-using espdiff::CompareResult;
+using espdiff::Alignment;
 using espdiff::Molecule;
 
 namespace {
@@ -54,13 +54,13 @@ TEST_CASE("exchanged side chains, shifted stretches and moved parts are named; s
   const std::vector<PlacedError> errors = pairing_errors(a, b, 1);
   CHECK(errors.size() >= 18);
   for (const PlacedError& error : errors) {
-    CompareResult result;
+    Alignment result;
     const std::vector<std::string> warnings = warnings_of(error, result);
     CAPTURE(error.kind);
     CAPTURE(all_of(warnings));
     CHECK(is_judged_rightly(error, result, warnings));
   }
-  CompareResult result;
+  Alignment result;
   CHECK(all_of(warnings_of({"", "", {a, b}}, result)).find('*') == std::string::npos);
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("a gap that only one state has refuses, and one that both have is a no
     gap.positions.push_back(whole.positions[i]);
     gap.radii.push_back(whole.radii[i]);
   }
-  CompareResult result;
+  Alignment result;
   const std::string alike = all_of(warnings_of({"", "", {gap, gap}}, result));
   CHECK(alike.find("source and target are broken alike in 1 place, where neighbours lie farther apart than a chain "
                    "reaches: ASN 53 of chain A and ") == 0);

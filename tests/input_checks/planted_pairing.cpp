@@ -267,13 +267,13 @@ std::vector<PlacedError> pairing_errors(const Molecule& a, const Molecule& b, st
   return errors;
 }
 
-std::vector<std::string> warnings_of(const PlacedError& error, CompareResult& result, double* seconds) {
+std::vector<std::string> warnings_of(const PlacedError& error, Alignment& alignment, double* seconds) {
   std::vector<std::string> texts;
   try {
     CompareOptions options;
-    align(error.pair.first, error.pair.second, options, result);
+    alignment = align(error.pair.first, error.pair.second, options).alignment;
     const std::clock_t start = std::clock();
-    for (const Warning& warning : input_warnings(error.pair.first, error.pair.second, result))
+    for (const Warning& warning : input_warnings(error.pair.first, error.pair.second, alignment))
       texts.push_back((warning.refuses ? "*" : "") + warning.text.plain());
     if (seconds != nullptr) *seconds += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   } catch (const Error& refusal) {
@@ -282,12 +282,11 @@ std::vector<std::string> warnings_of(const PlacedError& error, CompareResult& re
   return texts;
 }
 
-bool is_judged_rightly(const PlacedError& error, const CompareResult& result,
-                       const std::vector<std::string>& warnings) {
+bool is_judged_rightly(const PlacedError& error, const Alignment& alignment, const std::vector<std::string>& warnings) {
   const bool refused =
       std::any_of(warnings.begin(), warnings.end(), [](const std::string& text) { return text[0] == '*'; });
   if (error.text.empty()) return !refused;
-  if (error.text == "=") return !refused && result.rmsd_A < 0.01;
+  if (error.text == "=") return !refused && alignment.rmsd_A < 0.01;
   return std::any_of(warnings.begin(), warnings.end(),
                      [&](const std::string& text) { return text.find(error.text) != std::string::npos; });
 }

@@ -28,10 +28,10 @@ std::vector<PlacedError> pairing_errors(const espdiff::Molecule& a, const espdif
 
 /// The warnings of a pair, as compare makes them; what refuses begins with "*".
 /// @param seconds receives the processor time of the checks, added
-std::vector<std::string> warnings_of(const PlacedError& error, espdiff::CompareResult& result,
+std::vector<std::string> warnings_of(const PlacedError& error, espdiff::Alignment& alignment,
                                      double* seconds = nullptr);
 
-bool is_judged_rightly(const PlacedError& error, const espdiff::CompareResult& result,
+bool is_judged_rightly(const PlacedError& error, const espdiff::Alignment& alignment,
                        const std::vector<std::string>& warnings);
 
 }  // namespace espdiff_test

@@ -55,22 +55,22 @@ TEST_CASE(
         const CompareResult r = compare(*engine, source.input(), target.input(), deform_in(field, subdivide), {});
         CAPTURE(to_string(field));
         CAPTURE(subdivide);
-        CHECK(r.deform_report.converged);
+        CHECK(r.mapping.deform.converged);
         CHECK(r.certificate.mapped_to_target.mean < 0.05);
         CHECK(r.certificate.corrupt_area_fraction < 0.02);
         const bool flows = field == DeformField::kGvf || field == DeformField::kGvf2;
-        CHECK((r.flow_report.sweeps > 0) == flows);
-        CHECK(r.flow_report.converged == flows);
-        if (!subdivide) CHECK(r.n_vertices_subdivided == 0);
+        CHECK((r.mapping.flow.sweeps > 0) == flows);
+        CHECK(r.mapping.flow.converged == flows);
+        if (!subdivide) CHECK(r.mapping.n_vertices_subdivided == 0);
         REQUIRE(r.surface.path_length.size() == r.surface.positions.size());
-        const std::size_t n_old = r.surface.positions.size() - r.n_vertices_subdivided;
+        const std::size_t n_old = r.surface.positions.size() - r.mapping.n_vertices_subdivided;
         float least = 1;
         for (std::size_t v = 0; v < n_old; ++v)
           least = std::min(least, r.surface.path_length[v] - r.surface.displacement[v]);
         CHECK(least > -1e-4F);
-        CHECK(r.metrics.mean_path_length_A > r.metrics.mean_displacement_A);
+        CHECK(r.potential.metrics.mean_path_length_A > r.potential.metrics.mean_displacement_A);
         // They oscillate about the surface before they rest: 0.075 A, half of it back, and so on.
-        CHECK(r.metrics.mean_path_length_A < r.metrics.mean_displacement_A + 0.3);
+        CHECK(r.potential.metrics.mean_path_length_A < r.potential.metrics.mean_displacement_A + 0.3);
       }
     }
   }
@@ -93,21 +93,21 @@ TEST_CASE("subdivision reaches missed parts, and its vertices come from the sour
         engine->back_end().c_str(), 100 * without.certificate.corrupt_area_fraction,
         without.certificate.target_to_mapped.max, 100 * with.certificate.corrupt_area_fraction,
         with.certificate.target_to_mapped.max);
-    CHECK(with.n_vertices_subdivided > 100);
+    CHECK(with.mapping.n_vertices_subdivided > 100);
     CHECK(with.certificate.target_to_mapped.max < 0.2 * without.certificate.target_to_mapped.max);
     CHECK(with.certificate.corrupt_area_fraction < 0.1 * without.certificate.corrupt_area_fraction);
     // The maximum number of iterations applies to all rounds together.
     CompareOptions hurried = deform_in(DeformField::kDistance, true);
-    hurried.deform.max_iterations = without.deform_report.iterations + 7;
+    hurried.deform.max_iterations = without.mapping.deform.iterations + 7;
     const CompareResult stopped = compare(*engine, {&source, nullptr}, {&target, nullptr}, hurried, {});
-    CHECK(stopped.deform_report.iterations == hurried.deform.max_iterations);
+    CHECK(stopped.mapping.deform.iterations == hurried.deform.max_iterations);
     CHECK_FALSE(stopped.certificate.converged);
     // With radii as widths the density at a source position is the isovalue.
     std::vector<float> widths(source.radii.begin(), source.radii.end());
     const auto atoms =
         engine->upload_atoms(source.positions, widths, std::vector<std::int32_t>(source.positions.size(), 0));
     std::vector<Vec3f> added;
-    const std::size_t n_old = with.surface.positions.size() - with.n_vertices_subdivided;
+    const std::size_t n_old = with.surface.positions.size() - with.mapping.n_vertices_subdivided;
     for (std::size_t v = n_old; v < with.surface.positions.size(); ++v)
       added.push_back(static_cast<Vec3f>(with.surface.source_positions[v]));
     std::size_t n_off = 0;
@@ -124,9 +124,9 @@ TEST_CASE("a surface mapped onto itself is not subdivided, and its paths are sho
   for (const auto& engine : back_ends()) {
     for (const DeformField field : {DeformField::kDistance, DeformField::kGvf2}) {
       const CompareResult r = compare(*engine, side.input(), side.input(), deform_in(field, true), {});
-      CHECK(r.metrics.mean_displacement_A < 0.03);
-      CHECK(r.metrics.mean_path_length_A < 0.5);
-      CHECK(r.n_vertices_subdivided < r.surface.positions.size() / 100);
+      CHECK(r.potential.metrics.mean_displacement_A < 0.03);
+      CHECK(r.potential.metrics.mean_path_length_A < 0.5);
+      CHECK(r.mapping.n_vertices_subdivided < r.surface.positions.size() / 100);
     }
   }
 }
@@ -155,11 +155,11 @@ TEST_CASE("a series continues from a subdivided step with the source's own verti
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   espdiff::Series series(*engine, {&pair->source, nullptr}, deform_in(DeformField::kGvf2, true));
   const CompareResult first = series.step({&pair->target, nullptr}, StartFrom::kPrevious, {});
-  CHECK(first.n_vertices_subdivided > 0);
+  CHECK(first.mapping.n_vertices_subdivided > 0);
   REQUIRE(series.state().has_value());
-  CHECK(series.state()->mapped.size() == first.surface.positions.size() - first.n_vertices_subdivided);
+  CHECK(series.state()->mapped.size() == first.surface.positions.size() - first.mapping.n_vertices_subdivided);
   const CompareResult second = series.step({&pair->target, nullptr}, StartFrom::kPrevious, {});
-  CHECK(second.start == StartFrom::kPrevious);
+  CHECK(second.mapping.start == StartFrom::kPrevious);
   CHECK(second.certificate.mapped_to_target.mean < 0.05);
 }
 

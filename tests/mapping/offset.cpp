@@ -65,30 +65,30 @@ TEST_CASE("points inside the surface again are counted and left out, and the map
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const CompareResult on = compare(*engine, source.input(), target.input(), quick_options(), {}),
                       out = compare(*engine, source.input(), target.input(), read_at({2.5}), {});
-  REQUIRE(out.by_offset.size() == 1);
-  const espdiff::OffsetMetrics& at = out.by_offset.front();
+  REQUIRE(out.potential.by_offset.size() == 1);
+  const espdiff::OffsetMetrics& at = out.potential.by_offset.front();
   std::size_t n_missing = 0;
   for (const float v : out.surface.potential_source) n_missing += std::isfinite(v) ? 0 : 1;
   CHECK(at.n_inside_source + at.n_outside_source_map == n_missing);
-  CHECK(out.metrics.area_A2 <= on.metrics.area_A2);
+  CHECK(out.potential.metrics.area_A2 <= on.potential.metrics.area_A2);
   CHECK(out.certificate.mapped_to_target.mean == on.certificate.mapped_to_target.mean);
   CHECK(out.certificate.trustworthy == on.certificate.trustworthy);
-  CHECK(out.metrics.mean_abs_difference != on.metrics.mean_abs_difference);
+  CHECK(out.potential.metrics.mean_abs_difference != on.potential.metrics.mean_abs_difference);
 }
 
 TEST_CASE("a list gives the metrics of each distance; the first one is the result's own") {
   const Side source = make_side(1, 0), target = make_side(1, 0.3);
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const CompareResult all = compare(*engine, source.input(), target.input(), read_at({1.4, 0, 3}), {});
-  REQUIRE(all.by_offset.size() == 3);
-  CHECK(all.metrics.mean_abs_difference == all.by_offset[0].metrics.mean_abs_difference);
-  for (const auto& at : all.by_offset) {
+  REQUIRE(all.potential.by_offset.size() == 3);
+  CHECK(all.potential.metrics.mean_abs_difference == all.potential.by_offset[0].metrics.mean_abs_difference);
+  for (const auto& at : all.potential.by_offset) {
     const CompareResult alone = compare(*engine, source.input(), target.input(), read_at({at.offset_A}), {});
-    CHECK(at.metrics.mean_abs_difference == alone.metrics.mean_abs_difference);
-    CHECK(at.metrics.hodgkin_index == alone.metrics.hodgkin_index);
+    CHECK(at.metrics.mean_abs_difference == alone.potential.metrics.mean_abs_difference);
+    CHECK(at.metrics.hodgkin_index == alone.potential.metrics.hodgkin_index);
   }
   const CompareResult plain = compare(*engine, source.input(), target.input(), quick_options(), {});
-  CHECK(all.by_offset[1].metrics.mean_abs_difference == plain.metrics.mean_abs_difference);
+  CHECK(all.potential.by_offset[1].metrics.mean_abs_difference == plain.potential.metrics.mean_abs_difference);
 }
 
 TEST_CASE("a distance beyond the map is refused") {

@@ -113,8 +113,8 @@ TEST_CASE("a threshold without any area is a warning with what there is") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const CompareResult r =
       compare(*engine, source.input(), target.input(), with_kinds({}, {{"potential", 900.0, {}}}), {});
-  REQUIRE(!r.warnings.empty());
-  const std::string text = r.warnings.back().text.plain();
+  REQUIRE(!r.inputs.warnings.empty());
+  const std::string text = r.inputs.warnings.back().text.plain();
   CHECK(text.rfind("patches of potential>900: neither state has a connected area of 10 A^2 there; the values go from ",
                    0) == 0);
   CHECK(text.find(" kT/e: take another threshold") != std::string::npos);

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,26 +28,46 @@ using espdiff::StartFrom;
 
 namespace {
 
+/// States of which only the areas count: 100 and 300 A^2.
+struct TwoAreas {
+  std::unique_ptr<espdiff::Engine> engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 1);
+  CompareOptions options;
+  Molecule molecule;
+  espdiff::Surface source, target;
+  espdiff::MeshPtr none;
+  espdiff::Alignment alignment;
+
+  TwoAreas() {
+    source.summary.area_A2 = 100;
+    target.summary.area_A2 = 300;
+  }
+  espdiff::StatesToMap states() const {
+    return {*engine, options, molecule, source, none, false, molecule, target, alignment};
+  }
+};
+
 /// A mapping with nothing but numbers.
 MappedStep step_of(const char* domains, double slipped, double same_residue, double unmatched = 0) {
   MappedStep step{};
-  CompareResult& result = step.result;
-  result.domains_used = domains;
-  result.source_surface.area_A2 = 100;
-  result.target_surface.area_A2 = 300;
-  result.certificate.converged = true;
-  result.certificate.slip.emplace();
-  result.certificate.slip->large_area_fraction = slipped;
-  result.certificate.same_residue_area_fraction = same_residue;
-  result.certificate.unmatched_source = result.certificate.unmatched_target = unmatched;
+  step.report.domains = domains;
+  step.certificate.converged = true;
+  step.certificate.slip.emplace();
+  step.certificate.slip->large_area_fraction = slipped;
+  step.certificate.same_residue_area_fraction = same_residue;
+  step.certificate.unmatched_source = step.certificate.unmatched_target = unmatched;
   return step;
 }
 
 std::string kept(const MappedStep& straight, const MappedStep& local) {
-  const MappedStep step = better_of(straight, local, Molecule{});
-  REQUIRE(step.result.other_mapping.has_value());
-  CHECK(step.result.other_mapping->domains == (step.result.domains_used == "none" ? "local" : "none"));
-  return step.result.domains_used;
+  const TwoAreas areas;
+  const MappedStep step = better_of(straight, local, areas.states());
+  REQUIRE(step.report.other.has_value());
+  CHECK(step.report.other->domains == (step.report.domains == "none" ? "local" : "none"));
+  return step.report.domains;
+}
+
+double share_of(const CompareResult& r) {
+  return own_residue_share(r.certificate, r.source_surface.area_A2, r.target_surface.area_A2);
 }
 
 /// On a coarse lattice, which is enough for the choice.
@@ -93,14 +114,15 @@ TEST_CASE("a mapping within its limits is kept, then the one with more area on i
 
 TEST_CASE("the area on its own residue counts both surfaces, by their areas") {
   MappedStep step = step_of("none", 0.1, 0.5);
-  step.result.certificate.unmatched_source = 0.2;
-  step.result.certificate.unmatched_target = 0.4;
-  CHECK(own_residue_share(step.result) == doctest::Approx(0.5 * (100 * 0.8 + 300 * 0.6) / 400));
+  step.certificate.unmatched_source = 0.2;
+  step.certificate.unmatched_target = 0.4;
+  CHECK(own_residue_share(step.certificate, 100, 300) == doctest::Approx(0.5 * (100 * 0.8 + 300 * 0.6) / 400));
 }
 
 TEST_CASE("the mapping that was not kept is described with its limits") {
-  const MappedStep step = better_of(step_of("none", 0.125, 0.8), step_of("local", 0.03, 0.9), Molecule{});
-  const espdiff::OtherMapping& other = *step.result.other_mapping;
+  const TwoAreas areas;
+  const MappedStep step = better_of(step_of("none", 0.125, 0.8), step_of("local", 0.03, 0.9), areas.states());
+  const espdiff::OtherMapping& other = *step.report.other;
   CHECK(other.slip_area_fraction == 0.125);
   CHECK(other.same_residue_area_fraction == 0.8);
   CHECK(other.own_residue_area_fraction == doctest::Approx(0.8));
@@ -109,8 +131,8 @@ TEST_CASE("the mapping that was not kept is described with its limits") {
         "12.5 % of the mapped area slipped by more than 3 A from its own atoms (limit 8 %)");
   CHECK(other.because == "the superposition of the whole slips, and local motions are within the limits");
   const MappedStep failed = without_second(step_of("none", 0.125, 0.8), "nothing remains");
-  CHECK(failed.result.domains_used == "none");
-  CHECK(failed.result.other_mapping->reasons[0].plain() == "nothing remains");
+  CHECK(failed.report.domains == "none");
+  CHECK(failed.report.other->reasons[0].plain() == "nothing remains");
 }
 
 TEST_CASE("pairs that do not slip have the bits of the superposition, by either method") {
@@ -121,8 +143,8 @@ TEST_CASE("pairs that do not slip have the bits of the superposition, by either 
     options.method = method;
     REQUIRE(options.domains == "as-needed");
     const CompareResult result = compare(*engine, a.input(), b.input(), options, {});
-    CHECK(result.domains_used == "none");
-    CHECK_FALSE(result.other_mapping.has_value());
+    CHECK(result.mapping.domains == "none");
+    CHECK_FALSE(result.mapping.other.has_value());
     options.domains = "none";
     CHECK(hash_of(result) == hash_of(compare(*engine, a.input(), b.input(), options, {})));
   }
@@ -133,22 +155,25 @@ TEST_CASE("a pair that slips has the bits of local motions where they map better
   if (!pair.is_there) return;
   const CompareResult result = pair.compared(with("as-needed")), straight = pair.compared(with("none"));
   CHECK(hash_of(result) == hash_of(pair.compared(with("local"))));
-  CHECK(result.domains_used == "local");
+  CHECK(result.mapping.domains == "local");
   CHECK_FALSE(result.certificate.trustworthy);
-  REQUIRE(result.other_mapping.has_value());
-  const espdiff::OtherMapping& other = *result.other_mapping;
+  REQUIRE(result.mapping.other.has_value());
+  const espdiff::OtherMapping& other = *result.mapping.other;
   CHECK(other.domains == "none");
   // The mapping that was not kept has longer steps.
   constexpr double kOfSteps = 0.02;
   CHECK(std::abs(other.slip_area_fraction - straight.certificate.slip->large_area_fraction) < kOfSteps);
   CHECK(std::abs(other.same_residue_area_fraction - straight.certificate.same_residue_area_fraction) < kOfSteps);
-  CHECK(other.own_residue_area_fraction < own_residue_share(result));
-  CHECK(std::abs(other.own_residue_area_fraction - own_residue_share(straight)) < kOfSteps);
+  CHECK(other.own_residue_area_fraction < share_of(result));
+  CHECK(std::abs(other.own_residue_area_fraction - share_of(straight)) < kOfSteps);
 }
 
 TEST_CASE("a mapping is tried in long steps where atoms go far, and one atom is not enough") {
+  TwoAreas areas;
   Molecule source, target;
-  espdiff::AtomPairing pairing;
+  espdiff::AtomPairing& pairing = areas.alignment.pairing;
+  const espdiff::StatesToMap states{*areas.engine, areas.options, source,       areas.source,   areas.none,
+                                    false,         target,        areas.target, areas.alignment};
   constexpr std::size_t kAtoms = 100;
   for (std::size_t i = 0; i < kAtoms; ++i) {
     source.positions.push_back({static_cast<double>(i), 0, 0});
@@ -157,13 +182,13 @@ TEST_CASE("a mapping is tried in long steps where atoms go far, and one atom is 
   }
   const espdiff::CommonFrame frame{};
   const auto moved = [&](std::size_t atom, double way_A) { target.positions[atom].y = way_A; };
-  CHECK_FALSE(espdiff::will_slip(source, target, pairing, frame));
+  CHECK_FALSE(espdiff::will_slip(states, frame));
   moved(0, 20);
-  CHECK_FALSE(espdiff::will_slip(source, target, pairing, frame));
+  CHECK_FALSE(espdiff::will_slip(states, frame));
   moved(1, 10.1);
-  CHECK(espdiff::will_slip(source, target, pairing, frame));
+  CHECK(espdiff::will_slip(states, frame));
   moved(0, 15.9);
-  CHECK_FALSE(espdiff::will_slip(source, target, pairing, frame));
+  CHECK_FALSE(espdiff::will_slip(states, frame));
 }
 
 TEST_CASE("the superposition that is kept after a trial in long steps has the bits of usual steps") {
@@ -177,11 +202,11 @@ TEST_CASE("the superposition that is kept after a trial in long steps has the bi
     return compare(*engine, {&source, nullptr}, {&target, nullptr}, options, {});
   };
   const CompareResult result = compared("as-needed"), straight = compared("none");
-  CHECK(result.domains_used == "none");
-  REQUIRE(result.other_mapping.has_value());
-  CHECK(result.other_mapping->domains == "local");
+  CHECK(result.mapping.domains == "none");
+  REQUIRE(result.mapping.other.has_value());
+  CHECK(result.mapping.other->domains == "local");
   CHECK(hash_of(result) == hash_of(straight));
-  CHECK(result.morph_report.steps == straight.morph_report.steps);
+  CHECK(result.mapping.morph.steps == straight.mapping.morph.steps);
 }
 
 TEST_CASE("the round trip follows the mapping that is kept, and changes neither it nor its bits at one thread") {
@@ -222,10 +247,10 @@ TEST_CASE("molecules that are refused by a warning are mapped once") {
   for (float& radius : pair.target.radii) radius += 0.3F;
   const CompareResult result = pair.compared(with("as-needed"));
   REQUIRE_FALSE(result.certificate.trustworthy);
-  CHECK(result.warnings[0].refuses);
+  CHECK(result.inputs.warnings[0].refuses);
   CHECK(result.certificate.slip->large_area_fraction > 0.08);
-  CHECK(result.domains_used == "none");
-  CHECK_FALSE(result.other_mapping.has_value());
+  CHECK(result.mapping.domains == "none");
+  CHECK_FALSE(result.mapping.other.has_value());
 }
 
 TEST_CASE("a step that continues from the one before is mapped once") {
@@ -236,11 +261,11 @@ TEST_CASE("a step that continues from the one before is mapped once") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   Series series(*engine, {&pair.source, nullptr}, with("as-needed"));
   const CompareResult first = series.step({&pair.target, nullptr}, StartFrom::kPrevious, {});
-  CHECK(first.domains_used == "local");
+  CHECK(first.mapping.domains == "local");
   const CompareResult second = series.step({&next, nullptr}, StartFrom::kPrevious, {});
-  CHECK(second.start == StartFrom::kPrevious);
-  CHECK(second.domains_used == "none");
-  CHECK_FALSE(second.other_mapping.has_value());
+  CHECK(second.mapping.start == StartFrom::kPrevious);
+  CHECK(second.mapping.domains == "none");
+  CHECK_FALSE(second.mapping.other.has_value());
 }
 
 TEST_SUITE_END();

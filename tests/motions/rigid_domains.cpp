@@ -72,9 +72,9 @@ TEST_CASE("a domain that swings as a rigid body has no displacement, by both met
     CAPTURE(to_string(method));
     CHECK(by_domains < 0.1);
     CHECK(as_a_whole > 8 * by_domains);  // deform lets a ball turn under its surface, so that it moves little
-    CHECK(whole.domains.empty());
-    REQUIRE(chains.domains.size() == 2);
-    CHECK(chains.domains[1].rmsd_A < 1e-9);
+    CHECK(whole.alignment.domains.empty());
+    REQUIRE(chains.alignment.domains.size() == 2);
+    CHECK(chains.alignment.domains[1].rmsd_A < 1e-9);
     CHECK(chains.certificate.same_residue_area_fraction > 0.95);
   }
 }
@@ -98,10 +98,12 @@ TEST_CASE("one domain of the whole molecule changes only rounding") {
   const CompareResult whole = compare(*engine, a.input(), b.input(), options, {});
   options.domains = "chains";
   const CompareResult domain = compare(*engine, a.input(), b.input(), options, {});
-  REQUIRE(domain.domains.size() == 1);
-  CHECK(domain.domains[0].rmsd_A == doctest::Approx(whole.rmsd_A));
-  CHECK(domain.metrics.mean_abs_difference == doctest::Approx(whole.metrics.mean_abs_difference).epsilon(1e-3));
-  CHECK(domain.metrics.mean_displacement_A == doctest::Approx(whole.metrics.mean_displacement_A).epsilon(1e-3));
+  REQUIRE(domain.alignment.domains.size() == 1);
+  CHECK(domain.alignment.domains[0].rmsd_A == doctest::Approx(whole.rmsd_A));
+  CHECK(domain.potential.metrics.mean_abs_difference ==
+        doctest::Approx(whole.potential.metrics.mean_abs_difference).epsilon(1e-3));
+  CHECK(domain.potential.metrics.mean_displacement_A ==
+        doctest::Approx(whole.potential.metrics.mean_displacement_A).epsilon(1e-3));
 }
 
 TEST_CASE("a result names its domains") {

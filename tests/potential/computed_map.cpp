@@ -104,7 +104,7 @@ TEST_CASE("a series makes the source's map once, and gives the same bits as comp
   for (const double noise : {0.1, 0.2, 0.3}) {
     const Side target = make_side(1, noise);
     const CompareResult step = series.step(computed(target), espdiff::StartFrom::kSource, {});
-    CHECK(step.unit == PotentialUnit::kKtPerE);
+    CHECK(step.potential.unit == PotentialUnit::kKtPerE);
     CHECK(hash_of(step) == hash_of(compare(*engine, computed(source), computed(target), quick_options(), {})));
   }
   CHECK(n_made == 1);
@@ -122,10 +122,10 @@ TEST_CASE("a computed map beside a given one in another unit: both in kT/e") {
   for (const bool swapped : {false, true}) {
     const CompareResult mixed = swapped ? compare(*engine, in_millivolt.input(), computed(source), quick_options(), {})
                                         : compare(*engine, computed(source), in_millivolt.input(), quick_options(), {});
-    CHECK(mixed.unit == PotentialUnit::kKtPerE);
+    CHECK(mixed.potential.unit == PotentialUnit::kKtPerE);
     if (!swapped)
-      CHECK(mixed.metrics.mean_signed_difference ==
-            doctest::Approx(plain.metrics.mean_signed_difference).epsilon(1e-5));
+      CHECK(mixed.potential.metrics.mean_signed_difference ==
+            doctest::Approx(plain.potential.metrics.mean_signed_difference).epsilon(1e-5));
   }
   in_millivolt.map.unit = PotentialUnit::kUnknown;
   CHECK(message_of([&] { compare(*engine, computed(source), in_millivolt.input(), quick_options(), {}); }) ==
@@ -144,8 +144,8 @@ TEST_CASE("charges turned and moved with their molecule give the same potentials
   for (Vec3d& p : moved.molecule.positions) p = turn.apply(p);
   const auto engine = cpu(2);
   const CompareResult result = compare(*engine, computed(source), computed(moved), quick_options(), {});
-  CHECK(result.metrics.mean_abs_difference < 0.01 * result.metrics.rms_difference + 0.05);
-  CHECK(result.metrics.hodgkin_index > 0.9999);
+  CHECK(result.potential.metrics.mean_abs_difference < 0.01 * result.potential.metrics.rms_difference + 0.05);
+  CHECK(result.potential.metrics.hodgkin_index > 0.9999);
 }
 
 TEST_CASE("a result tells of a computed map what is needed to compute it again") {

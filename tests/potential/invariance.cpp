@@ -85,11 +85,11 @@ TEST_CASE("a molecule differs from its own copy, rigidly turned, by less than 1 
     for (const PotentialMethod method : kMethods) {
       const CompareResult result = compared(*engine, molecule, turned(molecule, ++seed), options_of(method));
       const double rms = rms_of(result.surface.potential_source);
-      MESSAGE(std::string(name), ", ", to_string(method), ": ", result.metrics.mean_abs_difference, " of ", rms,
-              " kT/e");
+      MESSAGE(std::string(name), ", ", to_string(method), ": ", result.potential.metrics.mean_abs_difference, " of ",
+              rms, " kT/e");
       CAPTURE(name);
-      CHECK(result.metrics.rms_difference < 0.01 * rms);
-      CHECK(std::fabs(result.metrics.mean_signed_difference) < 0.01 * rms);
+      CHECK(result.potential.metrics.rms_difference < 0.01 * rms);
+      CHECK(std::fabs(result.potential.metrics.mean_signed_difference) < 0.01 * rms);
     }
   }
 }
@@ -103,11 +103,11 @@ TEST_CASE("turning source or target in its file changes no metric by more than 1
                    target = espdiff::read_structure(*target_path, {});
     for (const PotentialMethod method : kMethods) {
       const PotentialOptions options = options_of(method);
-      const espdiff::Metrics plain = compared(*engine, source, target, options).metrics;
+      const espdiff::Metrics plain = compared(*engine, source, target, options).potential.metrics;
       for (const bool of_source : {true, false}) {
         const CompareResult other = of_source ? compared(*engine, turned(source, 91), target, options)
                                               : compared(*engine, source, turned(target, 92), options);
-        const espdiff::Metrics& m = other.metrics;
+        const espdiff::Metrics& m = other.potential.metrics;
         CAPTURE(pair.first);
         CAPTURE(to_string(method));
         CAPTURE(of_source);

@@ -212,7 +212,7 @@ espdiff::CompareResult compared(const Reference& a, const Reference& b, const Gr
 }
 
 bool warns(const espdiff::CompareResult& result, const std::string& text) {
-  for (const Warning& w : result.warnings) {
+  for (const Warning& w : result.inputs.warnings) {
     if (w.text.plain().find(text) != std::string::npos) return true;
   }
   return false;

@@ -8,6 +8,7 @@
 #include "mapping/input.h"
 #include "potential/computed_map.h"
 #include "potential/cpu_engine.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::ChargeSurroundings;
@@ -35,7 +36,7 @@ const PotentialOptions kPb = of(PotentialMethod::kPoissonBoltzmann), kCoulomb = 
 /// Warnings and reasons, a line each.
 std::string said(const CompareResult& result) {
   std::string text;
-  for (const espdiff::Warning& warning : result.warnings)
+  for (const espdiff::Warning& warning : result.inputs.warnings)
     text += (warning.refuses ? "refuses: " : "warns: ") + warning.text.plain() + "\n";
   return text;
 }

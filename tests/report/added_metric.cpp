@@ -24,7 +24,9 @@ using espdiff_test::ScratchFolder;
 
 namespace {
 
-double shrinkage(const CompareResult& result) { return 1 - result.area_mapped_A2 / result.source_surface.area_A2; }
+double shrinkage(const espdiff::MeasuredSurface& result) {
+  return 1 - result.area_mapped_A2 / result.source_surface.area_A2;
+}
 
 /// What CONTRIBUTING asks for.
 const Metric kShrinkage{"shrinkage_fraction",

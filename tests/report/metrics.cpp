@@ -23,9 +23,9 @@ namespace {
 /// Where every metric has a value.
 CompareResult full_result() {
   CompareResult result;
-  result.has_potential = true;
-  result.pairing.pairs = {{0, 0}, {1, 1}, {2, 2}};
-  result.unit = PotentialUnit::kKtPerE;
+  result.potential.compared = true;
+  result.alignment.pairing.pairs = {{0, 0}, {1, 1}, {2, 2}};
+  result.potential.unit = PotentialUnit::kKtPerE;
   result.certificate.round_trip = RoundTrip{0.1, 0.2, 0.3, 0.04};
   result.certificate.slip = SlipSummary{0.5, 0.3, 1.5, 4, 0.04, 0.02, 0.01};
   result.certificate.residues = ResidueCheck{0.95, 0.1, 2, 30};
@@ -129,7 +129,7 @@ TEST_CASE("units and formats follow from the kind of a metric") {
 
 TEST_CASE("without potentials the numbers of the shape come from the residues") {
   CompareResult result = full_result();
-  result.has_potential = false;
+  result.potential.compared = false;
   CHECK(value_of(*find_metric_or_null("mean_displacement_A"), result) == doctest::Approx(1.2));
   CHECK(value_of(*find_metric_or_null("mean_path_length_A"), result) == doctest::Approx(2.4));
   CHECK(value_of(*find_metric_or_null("area_A2"), result) == 10);
@@ -166,7 +166,7 @@ TEST_CASE("warnings and reasons end within 100 columns") {
   CompareResult result = full_result();
   std::string names;
   for (int i = 1; i < 60; ++i) names += (i == 1 ? "" : ", ") + std::string("residue ") + std::to_string(i);
-  result.warnings.push_back({"much differs: " + names, true});
+  result.inputs.warnings.push_back({"much differs: " + names, true});
   result.certificate.reasons.push_back("much differs: " + names);
   const std::string table = table_of(result);
   std::istringstream lines(table);

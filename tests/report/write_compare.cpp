@@ -37,17 +37,17 @@ Molecule made_molecule(const std::string& name) {
 CompareResult made_result() {
   CompareResult result;
   result.rmsd_A = 0.25;
-  result.pairing.method = "sequence alignment";
-  result.pairing.pairs = {{0, 0}, {1, 2}, {2, 3}};
-  result.pairing.n_aligned_residues = 3;
-  result.pairing.n_substituted_residues = 1;
-  result.n_superposed_atoms = 3;
-  result.source_to_target.translation = {1, 2, 3};
-  result.has_potential = true;
-  result.unit = PotentialUnit::kKtPerE;
-  result.metrics = {10, 1.5, 2.5, -0.5, 0.25, 0.75, 0.8, 1.25, 1.75};
-  result.metrics_all = {12, 1.6, 2.6, -0.6, 0.3, std::nan(""), 0.7, 1.5, 2};
-  result.n_outside_target_map = 1;
+  result.alignment.pairing.method = "sequence alignment";
+  result.alignment.pairing.pairs = {{0, 0}, {1, 2}, {2, 3}};
+  result.alignment.pairing.n_aligned_residues = 3;
+  result.alignment.pairing.n_substituted_residues = 1;
+  result.alignment.n_superposed_atoms = 3;
+  result.alignment.source_to_target.translation = {1, 2, 3};
+  result.potential.compared = true;
+  result.potential.unit = PotentialUnit::kKtPerE;
+  result.potential.metrics = {10, 1.5, 2.5, -0.5, 0.25, 0.75, 0.8, 1.25, 1.75};
+  result.potential.metrics_all = {12, 1.6, 2.6, -0.6, 0.3, std::nan(""), 0.7, 1.5, 2};
+  result.potential.n_outside_target_map = 1;
   result.source_surface = {4, 4, 1, 2, 11, 3};
   result.target_surface = {5, 6, 1, 0, 12, 0};
   result.area_mapped_A2 = 12;
@@ -59,8 +59,8 @@ CompareResult made_result() {
   result.certificate.reasons = {"12.5 % of the mapped area is corrupt (limit 0.1 %)"};
   result.certificate.self_intersecting_pairs = 3;
   result.certificate.not_checked = {"something_else"};
-  result.regularize_report.iterations = 17;
-  result.deform_report.iterations = 42;
+  result.mapping.regularize.iterations = 17;
+  result.n_steps = 42;
   result.residues = {{{6, 1, -1, 2, 1, 0.5}, 0, 1, 2, 0.25, 0, -1.5, 5},
                      {{4, 2, 2, 0, 2, 0}, 1, 1.5, 3, 3.5, 0.5, 2.5, 4},
                      {{0, kNan, kNan, kNan, kNan, kNan}, 2, kNan, kNan, kNan, kNan, kNan, kNan}};
@@ -177,9 +177,9 @@ TEST_CASE("a pair that was mapped twice says which mapping was kept, why, and wh
   CHECK(motions["because"].is_null());
   CHECK(motions["other"].is_null());
   CHECK(made_table(result).find("Mapped twice") == std::string::npos);
-  result.domains_used = "local";
+  result.mapping.domains = "local";
   result.certificate.same_residue_area_fraction = 0.75;
-  result.other_mapping = {"more is on its own residue", "none", {"12.5 % slipped"}, 0.125, 0.5, 0.01, 0.02, 0.4925};
+  result.mapping.other = {"more is on its own residue", "none", {"12.5 % slipped"}, 0.125, 0.5, 0.01, 0.02, 0.4925};
   motions = made_json(result)["motions"];
   CHECK(motions["domains"] == "local");
   CHECK(motions["own_residue_area_fraction"].get<double>() == doctest::Approx(0.75 * (11 + 0.75 * 12) / 23));
@@ -233,7 +233,7 @@ TEST_CASE("what has no value is null") {
   CHECK(json["certificate"]["not_checked"] == Json({"something_else"}));
   CHECK(json["metrics_all_triangles"].at("hodgkin_index").is_null());  // NaN
 
-  result.has_potential = false;
+  result.potential.compared = false;
   result.rmsd_A = std::nan("");
   json = made_json(result);
   for (const char* key : {"rmsd_A", "potential_unit", "mean_abs_difference", "rms_difference", "mean_signed_difference",
@@ -302,8 +302,8 @@ TEST_CASE("OUT.vtp has the arrays of the contract") {
 TEST_CASE("without potentials OUT.vtp has no potential arrays, and the table's columns are empty") {
   const ScratchFolder folder;
   CompareResult result = made_result();
-  result.has_potential = false;
-  result.unit = PotentialUnit::kUnknown;
+  result.potential.compared = false;
+  result.potential.unit = PotentialUnit::kUnknown;
   result.surface.potential_source.clear();
   result.surface.potential_target.clear();
   write(folder.file("out"), result);
@@ -368,7 +368,7 @@ TEST_CASE("the table gives the verdict with its reasons, and units") {
   CHECK(table.find("\nTRUSTWORTHY ON 83 %: the numbers rest on 83.9 % of the source's surface") != std::string::npos);
   CHECK(table.find("\nNot trusted:\n  - GLY 7B of chain A (12 A^2): slipped off its atoms\n") != std::string::npos);
 
-  result.has_potential = false;
+  result.potential.compared = false;
   table = made_table(result);
   CHECK(table.find("Shape (no potentials)") != std::string::npos);
   CHECK(table.find("kT/e") == std::string::npos);

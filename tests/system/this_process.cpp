@@ -2,6 +2,7 @@
 #include "system/this_process.h"
 
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 
 #include <cerrno>
 #include <chrono>
@@ -81,6 +82,33 @@ TEST_CASE("this_process: large arrays go back to the system when they are freed,
     first.reset();
     CHECK(resident_bytes() < before + kLarge / 2);
   }
+}
+
+TEST_CASE("this_process: arrays that are small beside the memory in use keep their pages when they are freed") {
+  if (!espdiff_test::can_limit_memory()) return;
+  keep_large_arrays_apart();
+  constexpr std::size_t kArray = 3 << 20, kInUse = 512 << 20;
+  const auto new_pages = [&] {
+    const auto made_again = [&] { return std::make_unique<std::vector<char>>(kArray, 'a'); };
+    made_again().reset();
+    rusage first{}, second{};
+    getrusage(RUSAGE_SELF, &first);
+    made_again().reset();
+    getrusage(RUSAGE_SELF, &second);
+    return static_cast<std::size_t>(second.ru_minflt - first.ru_minflt) * memory_page_size();
+  };
+  keep_larger_arrays_apart();
+  CHECK(new_pages() > kArray / 2);
+  {
+    const std::unique_ptr<volatile char[]> in_use(new char[kInUse]);  // one page is touched
+    in_use[0] = 'a';
+    keep_larger_arrays_apart();
+    CHECK(new_pages() < kArray / 2);
+  }
+  keep_larger_arrays_apart();
+  const std::uint64_t before = resident_bytes();
+  std::make_unique<std::vector<char>>(2 * kArray, 'a').reset();
+  CHECK(resident_bytes() < before + kArray);
 }
 #endif
 

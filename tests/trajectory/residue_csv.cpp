@@ -30,8 +30,8 @@ Molecule molecule() {
 
 CompareResult result(double first) {
   CompareResult made;
-  made.has_potential = true;
-  made.unit = espdiff::PotentialUnit::kKtPerE;
+  made.potential.compared = true;
+  made.potential.unit = espdiff::PotentialUnit::kKtPerE;
   for (std::size_t r = 0; r < 3; ++r) {
     ResidueRow row;
     row.residue = r;
@@ -140,7 +140,7 @@ TEST_CASE(
       m->positions.push_back({});
     }
   }
-  paired.pairing.pairs = {{0, 1}, {2, 2}};  // LYS and HEM; GLY has none
+  paired.alignment.pairing.pairs = {{0, 1}, {2, 2}};  // LYS and HEM; GLY has none
   const auto add_frame = [&](ResidueCsv& file, int frame) { file.add(file.row(frame, source, target, paired), "abc"); };
   const std::string head =
       "# residues: mean_abs_difference [kT/e]\n# trajectory: abc\n# partners: ,B:LYS 13,,HEM 1\n"

@@ -124,12 +124,12 @@ TEST_CASE("a row a frame, with the values of the pair, and what the rows were ma
         compare(*runner.engine, motion.source.input(), motion.sides[frame].input(), run.options, {});
     CHECK(row["reference_frame"] == "file source.pqr");
     CHECK(std::stod(row["rmsd_A"]) == alone.rmsd_A);
-    CHECK(std::stod(row["mean_abs_difference"]) == alone.metrics.mean_abs_difference);
+    CHECK(std::stod(row["mean_abs_difference"]) == alone.potential.metrics.mean_abs_difference);
     CHECK(std::stod(row["no_counterpart_target"]) == alone.certificate.unmatched_target);
     CHECK(row["potential_unit"] == "kT/e");
     CHECK(row["start"] == "source");
     CHECK(row["converged"] == (alone.certificate.converged ? "1" : "0"));
-    CHECK(row["iterations"] == std::to_string(alone.deform_report.iterations));
+    CHECK(row["iterations"] == std::to_string(alone.mapping.deform.iterations));
     CHECK(row["error"].empty());
   }
   CHECK(read_file(folder.file("a.csv")).rfind("# espdiff: 1\n# frames: all\n# settings: \nframe,reference_frame,", 0) ==
@@ -264,7 +264,7 @@ TEST_CASE("each frame against the one before") {
   CHECK(file.rows()[0]["reference_frame"] == "0");
   CHECK(file.rows()[1]["reference_frame"] == "2");
   const CompareResult alone = compare(*runner.engine, motion.side(2).input(), motion.side(3).input(), run.options, {});
-  CHECK(std::stod(file.rows()[1]["mean_abs_difference"]) == alone.metrics.mean_abs_difference);
+  CHECK(std::stod(file.rows()[1]["mean_abs_difference"]) == alone.potential.metrics.mean_abs_difference);
   run.frames = {2};
   CHECK(message_of([&] { TrajectoryRun(run, SeriesCsv(folder.file("b.csv"), kSeriesHead, ExistingFile::kRefuse)); }) ==
         "reference previous needs two frames or more");

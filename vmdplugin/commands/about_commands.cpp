@@ -125,6 +125,7 @@ Tcl_Obj* list_rows(const std::vector<OptionRow<Study>>& rows) {
 Tcl_Obj* list_study_settings(const Call& call) {
   const std::string study = call.text(0);
   if (study == "matrix") return list_rows(matrix_settings());
+  if (study == "merge") return list_rows(merge_settings());
   if (study == "trajectory") return list_rows(trajectory_settings());
 #ifdef ESPDIFF_HAVE_HDF5
   if (study == "ensemble") return list_rows(ensemble_settings());

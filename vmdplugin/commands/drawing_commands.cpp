@@ -177,7 +177,7 @@ Grid quantity_map(const Call& call) {
   map.unit = name == "displacement" || name == "slip" || name == "path_length" || name == "sign" ||
                      !DrawnName(name).field.empty()
                  ? PotentialUnit::kUnknown
-                 : comparison->result.unit;
+                 : comparison->result.potential.unit;
   map.name = "espdiff " + name + (quantity.unit.empty() ? "" : " (" + quantity.unit + ")");
   return map;
 }

@@ -64,10 +64,10 @@ Tcl_Obj* merge(const Call& call) {
   std::vector<std::string> paths;
   for (Tcl_Obj* const path : to_vector(call.arguments[0], "state files")) paths.push_back(to_string(path));
   DictReader reader(call.arguments[1], "options");
-  MatrixRun run;
+  MatrixStudy study;
+  MatrixRun& run = study.run;
   run.output = to_string(reader.require("output"));
-  run.overwrite = reader.boolean("overwrite", false);
-  run.cluster_by = reader.text("cluster_by");
+  reader.take(merge_settings(), study);
   reader.finish();
   if (const auto path = merged_ensemble(paths, run.output, run.overwrite)) return to_list({*path});
   return to_list(merge_parts(paths, run).files);

@@ -83,8 +83,8 @@ nlohmann::ordered_json json_result(const Call& call) {
   auto json = json_of(*comparison);
   auto& reasons = json["certificate"]["reasons"] = nlohmann::ordered_json::array();
   for (const Message& reason : comparison->result.certificate.reasons) reasons.push_back(spelled(call.interp, reason));
-  for (std::size_t k = 0; k < comparison->result.warnings.size(); ++k)
-    json["warnings"][k]["text"] = spelled(call.interp, comparison->result.warnings[k].text);
+  for (std::size_t k = 0; k < comparison->result.inputs.warnings.size(); ++k)
+    json["warnings"][k]["text"] = spelled(call.interp, comparison->result.inputs.warnings[k].text);
   return json;
 }
 
@@ -102,7 +102,7 @@ std::string insertion_of(const Residue& residue) {
 Tcl_Obj* residues(const Call& call) {
   const auto comparison = call.handles.finished_comparison(call.text(0));
   const Molecule &source = comparison->source_molecule, &target = comparison->target_molecule;
-  const std::vector<std::int32_t> partner = paired_residues(source, target, comparison->result.pairing);
+  const std::vector<std::int32_t> partner = paired_residues(source, target, comparison->result.alignment.pairing);
   std::vector<Tcl_Obj*> rows;
   for (const ResidueRow& row : comparison->result.residues) {
     const Residue& residue = source.residues.at(row.residue);

@@ -55,7 +55,7 @@ VertexQuantity of_comparison(const std::string& handle, const CompareResult& res
   }
   if (name != "difference" && name != "source" && name != "target" && name != "sign")
     throw InputError("'" + name + "' is not difference, source, target, sign, slip, displacement or path_length");
-  require_potentials(handle, name, result.has_potential);
+  require_potentials(handle, name, result.potential.compared);
   const std::string unit = potential_unit_text(result);
   if (name == "source") return {s.potential_source, unit};
   if (name == "target") return {s.potential_target, unit};

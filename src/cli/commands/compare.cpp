@@ -202,7 +202,7 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   }
   write_compare(a.output, answer.source_molecule, answer.target_molecule, result, options, answer.provenance,
                 answer.kept, pdb.get());
-  if (!a.picture.empty()) draw_result(a.output, a.picture, result.has_potential);
+  if (!a.picture.empty()) draw_result(a.output, a.picture, result.potential.compared);
   if (a.quiet) {
     print_verdict_line(std::cout, result);
     print_doubts(answer.provenance);

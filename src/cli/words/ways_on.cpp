@@ -110,20 +110,22 @@ std::vector<WayOn> ways_on(const CompareResult& result, const Molecule& source, 
   // A region, a patch and causes are of the source.
   const bool has_place = has("region") || has("region-within") || has("patch") || has("causes");
   std::vector<WayOn> ways;
-  const bool may_select = !has("select") && !has_side && !has("assembly") && !result.chains.empty() &&
-                          std::all_of(result.chains.begin(), result.chains.end(), is_named);
-  if (may_select && std::max(n_chains(source), n_chains(target)) > result.chains.size())
-    ways.push_back(chains_alone(result.chains, source, target));
-  if (result.chains.size() > 1 && !has("domains"))
+  const bool may_select = !has("select") && !has_side && !has("assembly") && !result.inputs.chains.empty() &&
+                          std::all_of(result.inputs.chains.begin(), result.inputs.chains.end(), is_named);
+  if (may_select && std::max(n_chains(source), n_chains(target)) > result.inputs.chains.size())
+    ways.push_back(chains_alone(result.inputs.chains, source, target));
+  if (result.inputs.chains.size() > 1 && !has("domains"))
     ways.push_back({"each chain superposed by itself", false, {{"domains", "chains"}}, 1});
-  if (may_select && result.chains.size() > 1) ways.push_back(chains_alone({result.chains.front()}, source, target));
-  const std::string extra = residues_of_one_state(result.chains, source, target);
-  if (!extra.empty() && !has("leave-out") && std::all_of(result.chains.begin(), result.chains.end(), is_named))
+  if (may_select && result.inputs.chains.size() > 1)
+    ways.push_back(chains_alone({result.inputs.chains.front()}, source, target));
+  const std::string extra = residues_of_one_state(result.inputs.chains, source, target);
+  if (!extra.empty() && !has("leave-out") &&
+      std::all_of(result.inputs.chains.begin(), result.inputs.chains.end(), is_named))
     ways.push_back({"without residues that only one state has", false, {{"leave-out", extra}}, 1});
   if (!has_side && !has_place) ways.push_back({"source and target exchanged", true, {}, 1});
-  if (has("domains") && result.domains_used != "local")
+  if (has("domains") && result.mapping.domains != "local")
     ways.push_back({"motions chosen by need", false, {{"domains", "as-needed"}}, 1});
-  if (prepared && result.has_potential && !has("same-protonation"))
+  if (prepared && result.potential.compared && !has("same-protonation"))
     ways.push_back({"one protonation for both", false, {{"same-protonation", "", true}}, 1});
   return ways;
 }

@@ -24,62 +24,59 @@ namespace espdiff {
 namespace {
 
 template <double Certificate::*Member>
-double of_certificate(const CompareResult& result) {
+double of_certificate(const MeasuredSurface& result) {
   return result.certificate.*Member;
 }
 template <DistanceSummary Certificate::*Side, double DistanceSummary::*Member>
-double of_distances(const CompareResult& result) {
+double of_distances(const MeasuredSurface& result) {
   return result.certificate.*Side.*Member;
 }
 template <double DistortionReport::*Member>
-double of_distortion(const CompareResult& result) {
+double of_distortion(const MeasuredSurface& result) {
   return result.certificate.distortion.*Member;
 }
 template <double RoundTrip::*Member>
-double of_round_trip(const CompareResult& result) {
+double of_round_trip(const MeasuredSurface& result) {
   return result.certificate.round_trip ? (*result.certificate.round_trip).*Member : kNaN;
 }
 
 template <double RemovedArea::*Member>
-double of_removed(const CompareResult& result) {
+double of_removed(const MeasuredSurface& result) {
   return result.certificate.removed.*Member;
 }
 
-double residue_correlation(const CompareResult& result) {
+double residue_correlation(const MeasuredSurface& result) {
   return result.certificate.residues ? result.certificate.residues->correlation : kNaN;
 }
 
-double outside_maps(const CompareResult& result) {
-  return result.has_potential ? result.certificate.outside_maps : kNaN;
+double outside_maps(const MeasuredSurface& result) {
+  return result.potential.compared ? result.certificate.outside_maps : kNaN;
 }
 
 template <double SlipSummary::*Member>
-double of_slip(const CompareResult& result) {
+double of_slip(const MeasuredSurface& result) {
   return result.certificate.slip ? (*result.certificate.slip).*Member : kNaN;
 }
 
-double trusted_of_source(const CompareResult& result) { return result.certificate.trusted.source; }
-double trusted_of_target(const CompareResult& result) { return result.certificate.trusted.target; }
-double turned_of_trusted(const CompareResult& result) { return result.certificate.turned.of_trusted; }
-double difference_without_turned(const CompareResult& result) {
-  return result.has_potential ? result.certificate.turned.mean_abs_difference : kNaN;
+double trusted_of_source(const MeasuredSurface& result) { return result.certificate.trusted.source; }
+double trusted_of_target(const MeasuredSurface& result) { return result.certificate.trusted.target; }
+double turned_of_trusted(const MeasuredSurface& result) { return result.certificate.turned.of_trusted; }
+double difference_without_turned(const MeasuredSurface& result) {
+  return result.potential.compared ? result.certificate.turned.mean_abs_difference : kNaN;
 }
 template <Why Reason>
-double not_trusted(const CompareResult& result) {
+double not_trusted(const MeasuredSurface& result) {
   return result.certificate.trusted.by_why[static_cast<std::size_t>(Reason)];
 }
 
-double rmsd(const CompareResult& result) { return result.rmsd_A; }
-double source_area(const CompareResult& result) { return result.source_surface.area_A2; }
-double target_area(const CompareResult& result) { return result.target_surface.area_A2; }
-double mapped_area(const CompareResult& result) { return result.area_mapped_A2; }
-double intersecting_pairs(const CompareResult& result) {
+double rmsd(const MeasuredSurface& result) { return result.rmsd_A; }
+double source_area(const MeasuredSurface& result) { return result.source_surface.area_A2; }
+double target_area(const MeasuredSurface& result) { return result.target_surface.area_A2; }
+double mapped_area(const MeasuredSurface& result) { return result.area_mapped_A2; }
+double intersecting_pairs(const MeasuredSurface& result) {
   return static_cast<double>(result.certificate.self_intersecting_pairs);
 }
-double iterations(const CompareResult& result) {
-  return static_cast<double>(result.morph_report.steps > 0 ? result.morph_report.steps
-                                                           : result.deform_report.iterations);
-}
+double iterations(const MeasuredSurface& result) { return static_cast<double>(result.n_steps); }
 
 std::vector<Metric> make_metrics() {
   using S = MetricSection;
@@ -403,7 +400,7 @@ std::vector<Metric> make_field_metrics(const Quantity& field, const std::string&
 }
 
 std::vector<Metric> make_part_metrics(const std::string& part) {
-  CompareResult scratch;
+  MeasuredSurface scratch;
   scratch.certificate.not_checked = unchecked_in_parts();
   std::vector<Metric> all;
   for (const Metric& metric : metrics()) {
@@ -489,7 +486,7 @@ std::vector<Metric> all_field_metrics(const PartsAndFields& compared) {
   return all;
 }
 
-const FieldResult* field_of(const CompareResult& result, const std::string& name) {
+const FieldResult* field_of(const MeasuredSurface& result, const std::string& name) {
   const auto found = std::find_if(result.fields.begin(), result.fields.end(),
                                   [&](const FieldResult& field) { return field.quantity.name == name; });
   return found == result.fields.end() ? nullptr : &*found;
@@ -539,13 +536,12 @@ const Metric* metric_of_column(const std::string& name, const std::vector<Quanti
 }
 
 double value_of(const Metric& metric, const CompareResult& result) {
-  if (*metric.part != '\0') {
-    const CompareResult* const part = part_of(result, metric.part);
-    if (part == nullptr) return kNaN;
-    Metric whole = metric;
-    whole.part = "";
-    return value_of(whole, *part);
-  }
+  if (*metric.part == '\0') return value_on(metric, result);
+  const PartResult* const part = part_of(result, metric.part);
+  return part == nullptr ? kNaN : value_on(metric, *part);
+}
+
+double value_on(const Metric& metric, const MeasuredSurface& result) {
   if (*metric.field != '\0') {
     const FieldResult* const field = field_of(result, metric.field);
     return field == nullptr ? kNaN : field->metrics.*metric.source.of_area;
@@ -554,13 +550,13 @@ double value_of(const Metric& metric, const CompareResult& result) {
   return counted_metrics(result).*metric.source.of_area;
 }
 
-double value_over_all_triangles(const Metric& metric, const CompareResult& result) {
+double value_over_all_triangles(const Metric& metric, const MeasuredSurface& result) {
   if (*metric.field != '\0') {
     const FieldResult* const field = field_of(result, metric.field);
     return field == nullptr ? kNaN : field->metrics_all.*metric.source.of_area;
   }
-  if (metric.source.of_area == nullptr || !result.has_potential) return kNaN;
-  return result.metrics_all.*metric.source.of_area;
+  if (metric.source.of_area == nullptr || !result.potential.compared) return kNaN;
+  return result.potential.metrics_all.*metric.source.of_area;
 }
 
 double value_of(const Metric& metric, const CompareResult& result, const ResidueRow& row) {
@@ -569,11 +565,11 @@ double value_of(const Metric& metric, const CompareResult& result, const Residue
     if (field == nullptr || row.residue >= field->residues.size()) return kNaN;
     return field->residues[row.residue].*static_cast<double ResidueMeans::*>(metric.source.of_residue);
   }
-  if (metric.section == MetricSection::kPotential && !result.has_potential) return kNaN;
+  if (metric.section == MetricSection::kPotential && !result.potential.compared) return kNaN;
   return row.*metric.source.of_residue;
 }
 
-bool is_unchecked(const Metric& metric, const CompareResult& result) {
+bool is_unchecked(const Metric& metric, const MeasuredSurface& result) {
   const std::string pointer = metric.json_pointer();
   const auto& names = result.certificate.not_checked;
   return std::any_of(names.begin(), names.end(),
@@ -607,8 +603,8 @@ std::string formatted(const Metric& metric, double value) {
   }
 }
 
-Metrics counted_metrics(const CompareResult& result) {
-  if (result.has_potential) return result.metrics;
+Metrics counted_metrics(const MeasuredSurface& result) {
+  if (result.potential.compared) return result.potential.metrics;
   Metrics counted = PotentialSums().metrics();  // without area, all of potentials are NaN
   counted.mean_displacement_A = counted.mean_path_length_A = 0;
   for (const ResidueRow& row : result.residues) {

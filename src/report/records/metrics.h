@@ -13,6 +13,7 @@ namespace espdiff {
 struct CompareOptions;
 struct CompareResult;
 struct FieldResult;
+struct MeasuredSurface;
 struct ResidueRow;
 
 /// What a result has numbers of besides the whole surface and the potential: region and patches by name, and fields.
@@ -41,9 +42,9 @@ enum MetricFlag : unsigned {
   kRemovable = 8,      ///< 0 by construction where Certificate::zero_by_construction
 };
 
-/// Where the value of a metric comes from: the whole comparison, the row of a residue, or both.
+/// Where the value of a metric comes from: a measured surface, whole or part, the row of a residue, or both.
 struct MetricSource {
-  using OfResult = double (*)(const CompareResult&);
+  using OfResult = double (*)(const MeasuredSurface&);
 
   MetricSource(OfResult result) : of_result(result) {}
   /// Over the trusted area; the printed table and OUT.json also show it over all triangles.
@@ -102,7 +103,7 @@ std::vector<Metric> all_field_metrics(const PartsAndFields& compared);
 /// What the residues of a result have: metrics, then those of its fields.
 std::vector<Metric> residue_metrics(const CompareResult& result);
 /// Null where it was not compared.
-const FieldResult* field_of(const CompareResult& result, const std::string& name);
+const FieldResult* field_of(const MeasuredSurface& result, const std::string& name);
 /// Null when there is none of that name.
 const Metric* find_metric_or_null(const std::string& name);
 
@@ -113,12 +114,14 @@ const Metric* metric_of_column(const std::string& name, const std::vector<Quanti
 /// The number for the whole comparison, or for one of its parts; NaN where there is none. The metric
 /// has_result().
 double value_of(const Metric& metric, const CompareResult& result);
+/// The number for one surface, whatever part the metric is of.
+double value_on(const Metric& metric, const MeasuredSurface& surface);
 /// Over all triangles with samples, trusted or not; NaN where there is none.
-double value_over_all_triangles(const Metric& metric, const CompareResult& result);
+double value_over_all_triangles(const Metric& metric, const MeasuredSurface& surface);
 /// The number for one residue; NaN where it has no surface that is counted. The metric has_residues().
 double value_of(const Metric& metric, const CompareResult& result, const ResidueRow& row);
 /// Whether the certificate says that this was not checked.
-bool is_unchecked(const Metric& metric, const CompareResult& result);
+bool is_unchecked(const Metric& metric, const MeasuredSurface& surface);
 
 /// "kT/e", "A", "A^2", or empty for what is a mere number.
 std::string unit_of(const Metric& metric, const std::string& potential_unit);
@@ -133,6 +136,6 @@ std::string formatted(const Metric& metric, double value);
 
 /// The metrics over the trusted surface. Without potentials, area, displacement and path length come from the
 /// residues' rows, and the others are NaN.
-Metrics counted_metrics(const CompareResult& result);
+Metrics counted_metrics(const MeasuredSurface& surface);
 
 }  // namespace espdiff

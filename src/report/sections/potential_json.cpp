@@ -104,7 +104,8 @@ bool has_vacuum(const CompareResult& result) {
   const auto is_one = [](const auto& recipe, const auto& check) {
     return (recipe && is_vacuum(*recipe)) || (check && check->is_vacuum());
   };
-  return is_one(result.source_recipe, result.source_map_check) || is_one(result.target_recipe, result.target_map_check);
+  return is_one(result.maps.source_recipe, result.maps.source_check) ||
+         is_one(result.maps.target_recipe, result.maps.target_check);
 }
 
 Json check_json(const std::shared_ptr<const MapCheck>& check) {
@@ -123,24 +124,24 @@ Json check_json(const std::shared_ptr<const MapCheck>& check) {
 }  // namespace
 
 std::string potential_label(const CompareResult& result) {
-  const std::string source = side_label(result.source_recipe, result.source_map_check),
-                    target = side_label(result.target_recipe, result.target_map_check);
-  if (!result.source_recipe && !result.target_recipe && !has_vacuum(result)) return {};
+  const std::string source = side_label(result.maps.source_recipe, result.maps.source_check),
+                    target = side_label(result.maps.target_recipe, result.maps.target_check);
+  if (!result.maps.source_recipe && !result.maps.target_recipe && !has_vacuum(result)) return {};
   const std::string unknown = "a given map";
   return source == target ? source
                           : (source.empty() ? unknown : source) + " and " + (target.empty() ? unknown : target);
 }
 
 std::string potential_unit_text(const CompareResult& result) {
-  return to_string(result.unit) + (has_vacuum(result) ? kInVacuum : "");
+  return to_string(result.potential.unit) + (has_vacuum(result) ? kInVacuum : "");
 }
 
 Json given_maps_json(const CompareResult& result) {
-  return {{"source", check_json(result.source_map_check)}, {"target", check_json(result.target_map_check)}};
+  return {{"source", check_json(result.maps.source_check)}, {"target", check_json(result.maps.target_check)}};
 }
 
 Json potential_json(const CompareResult& result) {
-  const auto &a = result.source_recipe, &b = result.target_recipe;
+  const auto &a = result.maps.source_recipe, &b = result.maps.target_recipe;
   if (!a && !b) return nullptr;
   Json json;
   json["label"] = potential_label(result);

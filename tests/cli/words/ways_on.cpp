@@ -31,7 +31,7 @@ espdiff::Molecule chains_of(const std::string& names, std::size_t n_atoms) {
 
 TEST_CASE("a chain against a complex of four: the chain alone comes first, and costs what it has of the atoms") {
   espdiff::CompareResult result;
-  result.chains = {{"A", "C", 298}};
+  result.inputs.chains = {{"A", "C", 298}};
   const auto ways = ways_on(result, chains_of("A", 100), chains_of("ABCD", 100), {}, false);
   REQUIRE(ways.size() == 2);
   CHECK(ways[0].what == "chain A with chain C alone");
@@ -49,7 +49,7 @@ TEST_CASE("a tail that only one state has is left out, a missing residue and ano
     return molecule;
   };
   espdiff::CompareResult result;
-  result.chains = {{"X", "X", 76}};
+  result.inputs.chains = {{"X", "X", 76}};
   const auto first_of = [&](const espdiff::Molecule& source, const espdiff::Molecule& target,
                             const std::vector<std::string>& given) {
     return ways_on(result, source, target, given, false).front();
@@ -65,7 +65,7 @@ TEST_CASE("a tail that only one state has is left out, a missing residue and ano
 
 TEST_CASE("several chains are superposed each by itself before one of them is compared alone") {
   espdiff::CompareResult result;
-  result.chains = {{"A", "A", 100}, {"B", "B", 100}};
+  result.inputs.chains = {{"A", "A", 100}, {"B", "B", 100}};
   const auto ways = ways_on(result, chains_of("AB", 100), chains_of("AB", 100), {}, false);
   REQUIRE(ways.size() >= 2);
   CHECK(ways[0].options[0].value == "chains");

@@ -1,5 +1,5 @@
 // last_step.cpp: continues a series from one target to the next.
-#include "compare/last_step.h"
+#include "compare/stages/last_step.h"
 
 #include <cmath>
 #include <limits>

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "compare/compare_potentials.h"
+#include "compare/stages/compare_potentials.h"
 #include "engine/potential_stage.h"
 #include "mapping/input.h"
 
@@ -33,22 +34,28 @@ struct Readings {
 PotentialReading weighted_reading(const std::vector<Vec3f>& points, const std::vector<double>& weights,
                                   const std::vector<float>& potential);
 
-/// The readings that the options ask for. The step's residues and parts are complete.
+/// The readings that the options ask for. The result's surface and residues are complete.
 /// @param target_of [source residue] from paired_residues()
 /// @throws InputError for a reading without surface
 Readings take_readings(Engine& engine, const PotentialSide& source, const PotentialSide& target,
                        const CompareOptions& options, const std::vector<MeasuredPart>& parts,
-                       std::vector<std::int32_t> target_of, const MappedStep& step);
+                       std::vector<std::int32_t> target_of, const MappedStep& step, const CompareResult& result);
 
-/// A molecule as it is compared, and its charges in the order of its map.
+/// A molecule as it is compared, its charges in the order of its map, and its place.
 struct SideCharges {
   const Molecule& molecule;
   const Molecule& charges;
+  RigidTransform to_common;
 };
 
-/// The causes of the readings, into the step's result.
+struct FoundCauses {
+  std::shared_ptr<const Causes> causes;
+  std::vector<Warning> warnings;
+};
+
+/// The causes of the readings of a result that is complete but for them.
 /// @throws as Engine::contributions()
-void find_causes(Engine& engine, Readings readings, const SideCharges& source, const SideCharges& target,
-                 const CompareOptions& options, MappedStep& step, const Progress& progress);
+FoundCauses find_causes(Engine& engine, Readings readings, const SideCharges& source, const SideCharges& target,
+                        const CompareOptions& options, const CompareResult& result, const Progress& progress);
 
 }  // namespace espdiff

@@ -5,17 +5,18 @@
 
 #include "base/handles.h"
 #include "certificate/result.h"
-#include "compare/measured_parts.h"
+#include "compare/stages/measured_parts.h"
+#include "mapping/build_surface.h"
 
 namespace espdiff {
 
 struct CompareOptions;
 
-/// One side's potential and the atoms of its surface.
+/// One side's potential, and the surface that it is read on.
 struct PotentialSide {
   const CompareInput& input;
   GridPtr map;
-  AtomsPtr atoms;
+  const Surface& surface;
 };
 
 /// Both potentials at one distance outside the surfaces.
@@ -24,16 +25,18 @@ struct PotentialSamples {
   OffsetMetrics counted;              ///< without the metrics
 };
 
-/// Samples both potentials at each distance outside the surfaces. The result's vertices have those of the first.
-/// @param unit of both maps
+/// Samples both potentials at each distance outside the surfaces.
 /// @throws as sample_outside(), count_outside()
 std::vector<PotentialSamples> sample_potentials(Engine& engine, const PotentialSide& source,
                                                 const PotentialSide& target, const CompareOptions& options,
-                                                PotentialUnit unit, MappedStep& step);
+                                                const MappedStep& step);
 
 /// The metrics of the difference at each distance: over the trusted area, over all area, and over the trusted area of
 /// each part.
-void compare_potentials(Engine& engine, const std::vector<PotentialSamples>& samples,
-                        const std::vector<MeasuredPart>& parts, MappedStep& step);
+/// @param surface says where the area is trusted
+/// @param parts receive their comparison
+PotentialComparison compare_potentials(Engine& engine, const std::vector<PotentialSamples>& samples, PotentialUnit unit,
+                                       const MappedStep& step, const MappedSurface& surface,
+                                       std::vector<MeasuredPart>& parts);
 
 }  // namespace espdiff

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/handles.h"
-#include "compare/measured_parts.h"
+#include "compare/stages/measured_parts.h"
 #include "field/field.h"
 
 namespace espdiff {
@@ -30,17 +30,17 @@ struct FieldsOfSide {
   GridPtr potential;
 };
 
+/// The fields of both states on the mapping, and what was noted of them.
+struct ComparedFields {
+  std::vector<FieldResult> fields;
+  std::vector<Warning> warnings;
+};
+
 /// Reads each field of both states at corresponding vertices; metrics and residues over the trusted area, of the whole
 /// and of each part. Notes become warnings.
-void compare_fields(Engine& engine, const std::vector<Field>& fields, const FieldsOfSide& source,
-                    const FieldsOfSide& target, const CompareOptions& options, const std::vector<MeasuredPart>& parts,
-                    MappedStep& step);
-
-/// @throws InputError naming a request for patches of the potential
-void refuse_patches_of_potential(const CompareOptions& options);
-
-/// Finds the patches that the options ask for, of the finished fields and potentials. A request that finds none in
-/// either state becomes a warning with the values that there are.
-void find_patches_of_fields(const CompareOptions& options, CompareResult& result);
+/// @param result with its mapped surface and the potentials' unit  @param parts receive their fields
+ComparedFields compare_fields(Engine& engine, const std::vector<Field>& fields, const FieldsOfSide& source,
+                              const FieldsOfSide& target, const CompareOptions& options, const MappedStep& step,
+                              const CompareResult& result, std::vector<MeasuredPart>& parts);
 
 }  // namespace espdiff

@@ -1,5 +1,5 @@
 // cause_probes.cpp: builds the probes of a state, and sums what they add by residue and by draw.
-#include "compare/cause_probes.h"
+#include "compare/stages/cause_probes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,6 @@
 // patches_of_fields.cpp: connected areas beyond thresholds of a comparison's fields.
+#include "compare/stages/patches_of_fields.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,7 +8,6 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "certificate/result.h"
-#include "compare/compare_fields.h"
 #include "options/options.h"
 
 namespace espdiff {
@@ -24,7 +25,7 @@ FieldValues values_of(const std::string& name, const CompareResult& result) {
   for (const FieldResult& field : result.fields) {
     if (field.quantity.name == name) return {field.quantity, field.source, field.target};
   }
-  return {{"potential", "Potential", to_string(result.unit), true}, s.potential_source, s.potential_target};
+  return {{"potential", "Potential", to_string(result.potential.unit), true}, s.potential_source, s.potential_target};
 }
 
 /// Says how far the values reach.
@@ -58,16 +59,18 @@ void refuse_patches_of_potential(const CompareOptions& options) {
   }
 }
 
-void find_patches_of_fields(const CompareOptions& options, CompareResult& result) {
+FoundPatches find_patches_of_fields(const CompareOptions& options, const CompareResult& result) {
+  FoundPatches found;
   const MappedSurface& s = result.surface;
   for (const PatchesRequest& request : options.patches_of) {
     const FieldValues field = values_of(request.field, result);
     FieldPatches patches =
         find_field_patches(field.quantity, request, s.triangles, {s.source_positions, field.source, s.residue, {}},
                            {s.positions, field.target, s.target_residue, s.unmatched}, s.why);
-    if (patches.source.empty() && patches.target.empty()) result.warnings.push_back(without_patches(patches, field));
-    result.field_patches.push_back(std::move(patches));
+    if (patches.source.empty() && patches.target.empty()) found.warnings.push_back(without_patches(patches, field));
+    found.patches.push_back(std::move(patches));
   }
+  return found;
 }
 
 }  // namespace espdiff

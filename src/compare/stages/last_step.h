@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "base/handles.h"
-#include "compare/series.h"
+#include "base/progress.h"
+#include "compare/stages/series_state.h"
 #include "engine/morph_stage.h"
 #include "motions/common_frame.h"
 #include "options/options.h"

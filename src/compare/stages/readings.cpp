@@ -1,5 +1,5 @@
 // readings.cpp: the weights of readings on the mapped surface, and what each residue adds to them.
-#include "compare/readings.h"
+#include "compare/stages/readings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "base/triangle_areas.h"
 #include "causes/causes.h"
 #include "causes/reading.h"
-#include "compare/cause_probes.h"
+#include "compare/stages/cause_probes.h"
 #include "engine/engine.h"
 #include "mapping/map_recipe.h"
 #include "mapping/sample_outside.h"
@@ -27,17 +27,13 @@ bool is_residue(const ReadingRequest& request, const Residue& residue) {
          (request.chain.empty() || residue.chain == request.chain);
 }
 
-/// [triangle] nonzero outside of the reading's place; empty where that is everything.
-std::vector<float> outside_of_reading(const ReadingRequest& request, const CompareResult& result,
-                                      const std::vector<MeasuredPart>& parts) {
-  const CompareResult* wanted = result.region.get();
-  for (const PatchResult& patch : result.patches) {
-    if (request.of == ReadingOf::kPatch && patch.name == request.patch) wanted = patch.result.get();
-  }
-  for (const MeasuredPart& part : parts) {
-    if (part.result.get() == wanted) return part.place.outside;
-  }
-  throw InputError(option("causes") + ": there is no such region or patch");
+/// [triangle] nonzero outside of the region or patch that a reading names.
+const std::vector<float>& outside_of_reading(const ReadingRequest& request, const std::vector<MeasuredPart>& parts) {
+  const std::string name = request.of == ReadingOf::kPatch ? request.patch : kRegionPart;
+  const auto wanted =
+      std::find_if(parts.begin(), parts.end(), [&](const MeasuredPart& part) { return part.result.name == name; });
+  if (wanted == parts.end()) throw InputError(option("causes") + ": there is no such region or patch");
+  return wanted->place.outside;
 }
 
 /// [vertex] the share of the reading's area, with the metrics' area and exclusions; for the whole times the sign of the
@@ -46,8 +42,7 @@ std::vector<double> weights_of(const ReadingRequest& request, const std::string&
                                const std::vector<MeasuredPart>& parts, const Molecule& source) {
   const MappedSurface& s = result.surface;
   std::vector<float> outside;
-  if (request.of == ReadingOf::kRegion || request.of == ReadingOf::kPatch)
-    outside = outside_of_reading(request, result, parts);
+  if (request.of == ReadingOf::kRegion || request.of == ReadingOf::kPatch) outside = outside_of_reading(request, parts);
   std::vector<double> weights = corner_areas(
       s.positions, s.triangles, [&](std::size_t t) { return s.why[t] == 0 && (outside.empty() || outside[t] == 0); });
   if (request.of == ReadingOf::kResidue) {
@@ -159,11 +154,11 @@ PotentialReading weighted_reading(const std::vector<Vec3f>& points, const std::v
 
 Readings take_readings(Engine& engine, const PotentialSide& source, const PotentialSide& target,
                        const CompareOptions& options, const std::vector<MeasuredPart>& parts,
-                       std::vector<std::int32_t> target_of, const MappedStep& step) {
-  const CompareResult& result = step.result;
+                       std::vector<std::int32_t> target_of, const MappedStep& step, const CompareResult& result) {
   const float isovalue = static_cast<float>(options.surface.isovalue);
   const auto points_of = [&](const PotentialSide& side, const MeshPtr& mesh) {
-    return engine.download_positions(moved_outside(engine, mesh, side.atoms, isovalue, options.offsets_A.front()));
+    return engine.download_positions(
+        moved_outside(engine, mesh, side.surface.atoms, isovalue, options.offsets_A.front()));
   };
   const std::vector<Vec3f> on_source = points_of(source, step.mapping.source),
                            on_target = points_of(target, step.mapping.mapped);
@@ -180,20 +175,17 @@ Readings take_readings(Engine& engine, const PotentialSide& source, const Potent
   return readings;
 }
 
-void find_causes(Engine& engine, Readings readings, const SideCharges& source, const SideCharges& target,
-                 const CompareOptions& options, MappedStep& step, const Progress& progress) {
-  CompareResult& result = step.result;
+FoundCauses find_causes(Engine& engine, Readings readings, const SideCharges& source, const SideCharges& target,
+                        const CompareOptions& options, const CompareResult& result, const Progress& progress) {
   auto causes = std::make_shared<Causes>();
-  causes->changes = residue_changes({source.molecule, target.molecule, readings.target_of, result.pairing,
-                                     result.protonation, result.source_to_target});
+  causes->changes = residue_changes({source.molecule, target.molecule, readings.target_of, result.alignment.pairing,
+                                     result.inputs.protonation, result.alignment.source_to_target});
   causes->knows_places = knows_places(source.molecule) || knows_places(target.molecule);
   for (const Residue& residue : source.molecule.residues)
     causes->has_chains = causes->has_chains || residue.chain != source.molecule.residues.front().chain;
   const std::vector<std::uint8_t> may_move = at_surface(result, *causes);
-  const StateProbes source_probes =
-                        probes_of(source.molecule, step.frame.from_source, *causes, false, may_move, options),
-                    target_probes =
-                        probes_of(target.molecule, step.frame.from_target, *causes, true, may_move, options);
+  const StateProbes source_probes = probes_of(source.molecule, source.to_common, *causes, false, may_move, options),
+                    target_probes = probes_of(target.molecule, target.to_common, *causes, true, may_move, options);
   // One state after the other: what the first one's potential left is not needed for the second.
   auto of_source = engine.contributions(std::exchange(readings.source_map, nullptr), readings.of_source,
                                         source_probes.charges, progress);
@@ -201,7 +193,7 @@ void find_causes(Engine& engine, Readings readings, const SideCharges& source, c
   const auto depends_on_shape = [](const std::shared_ptr<const MapRecipe>& recipe) {
     return recipe != nullptr && recipe->method == PotentialMethod::kPoissonBoltzmann;
   };
-  const bool is_exact = !depends_on_shape(result.source_recipe) && !depends_on_shape(result.target_recipe);
+  const bool is_exact = !depends_on_shape(result.maps.source_recipe) && !depends_on_shape(result.maps.target_recipe);
   const MappedSurface& s = result.surface;
   for (std::size_t r = 0; r < readings.weights.size(); ++r) {
     const std::vector<double>& weights = readings.weights[r];
@@ -214,15 +206,17 @@ void find_causes(Engine& engine, Readings readings, const SideCharges& source, c
                  reading_of(weights, s.potential_target)});
     add_probed(*causes, source_probes, source_values, target_probes, target_values, is_exact, options);
   }
+  FoundCauses found;
   for (const CausesOfReading& reading : causes->readings) {
     if (!reading.placements || !reading.placements->spans_zero()) continue;
-    result.warnings.push_back({"the difference of " + reading.name + " is " + short_number(reading.difference()) +
-                                   ", and " + short_number(reading.placements->low) + " to " +
-                                   short_number(reading.placements->high) +
-                                   " with side chains in other places: its sign is not known",
-                               false});
+    found.warnings.push_back({"the difference of " + reading.name + " is " + short_number(reading.difference()) +
+                                  ", and " + short_number(reading.placements->low) + " to " +
+                                  short_number(reading.placements->high) +
+                                  " with side chains in other places: its sign is not known",
+                              false});
   }
-  result.causes = causes;
+  found.causes = std::move(causes);
+  return found;
 }
 
 }  // namespace espdiff

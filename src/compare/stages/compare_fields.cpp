@@ -1,5 +1,5 @@
 // compare_fields.cpp: reads fields on the two meshes of a mapping and compares them.
-#include "compare/compare_fields.h"
+#include "compare/stages/compare_fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,14 +82,15 @@ void refuse_fields_of_potential(const std::vector<Field>& fields) {
   }
 }
 
-void compare_fields(Engine& engine, const std::vector<Field>& fields, const FieldsOfSide& source,
-                    const FieldsOfSide& target, const CompareOptions& options, const std::vector<MeasuredPart>& parts,
-                    MappedStep& step) {
-  if (fields.empty()) return;
-  CompareResult& result = step.result;
+ComparedFields compare_fields(Engine& engine, const std::vector<Field>& fields, const FieldsOfSide& source,
+                              const FieldsOfSide& target, const CompareOptions& options, const MappedStep& step,
+                              const CompareResult& result, std::vector<MeasuredPart>& parts) {
+  ComparedFields compared;
+  if (fields.empty()) return compared;
   const std::vector<float> untrusted = untrusted_triangles(result.surface);
   const float isovalue = static_cast<float>(options.surface.isovalue);
   const double offset_A = options.offsets_A.front();
+  const PotentialUnit unit = result.potential.unit;
   const auto place = [&](const FieldsOfSide& side, const MeshPtr& mesh) {
     return FieldPlace{engine,
                       mesh,
@@ -107,8 +108,7 @@ void compare_fields(Engine& engine, const std::vector<Field>& fields, const Fiel
   for (std::size_t f = 0; f < fields.size(); ++f) {
     FieldResult field;
     field.quantity = fields[f].quantity;
-    if (fields[f].of_potential)
-      field.quantity.unit = result.unit == PotentialUnit::kUnknown ? "" : to_string(result.unit) + "/A";
+    if (fields[f].of_potential) field.quantity.unit = unit == PotentialUnit::kUnknown ? "" : to_string(unit) + "/A";
     field.what = fields[f].what;
     field.reference = fields[f].reference;
     field.files = fields[f].files;
@@ -121,24 +121,25 @@ void compare_fields(Engine& engine, const std::vector<Field>& fields, const Fiel
                                      engine.upload_scalars(field.target)};
     field.metrics = comparison.metrics(untrusted);
     field.metrics_all = comparison.metrics(step.mapping.unmatched);
-    for (const MeasuredPart& part : parts) {
+    for (MeasuredPart& part : parts) {
       FieldResult of_part;
       of_part.quantity = field.quantity;
       of_part.what = field.what;
       of_part.reference = field.reference;
       of_part.metrics = comparison.metrics(larger_of(part.place.outside, untrusted));
       of_part.metrics_all = comparison.metrics(larger_of(part.place.outside, step.mapping.unmatched));
-      part.result->fields.push_back(std::move(of_part));
+      part.result.fields.push_back(std::move(of_part));
     }
     field.residues = means_of(field, result.surface, result.residues.size());
     for (const StateField* of_state : {&source.fields[f], &target.fields[f]}) {
       field.files.insert(field.files.end(), of_state->files.begin(), of_state->files.end());
       for (const std::string& note : of_state->notes)
-        result.warnings.push_back({"field " + field.quantity.name + ": " + note, false});
+        compared.warnings.push_back({"field " + field.quantity.name + ": " + note, false});
     }
-    if (!(field.metrics_all.area_A2 > 0)) result.warnings.push_back({without_values(field), false});
-    result.fields.push_back(std::move(field));
+    if (!(field.metrics_all.area_A2 > 0)) compared.warnings.push_back({without_values(field), false});
+    compared.fields.push_back(std::move(field));
   }
+  return compared;
 }
 
 }  // namespace espdiff
