@@ -162,7 +162,7 @@ void add_comparison(nb::module_& module) {
   nb::class_<Comparison>(module, "Comparison", "The result of compare(); arrays are read-only and not copied.")
       .def_prop_ro("source", [](const Comparison& c) { return c.source; })
       .def_prop_ro("target", [](const Comparison& c) { return c.target; })
-      .def_prop_ro("has_potential", [](const Comparison& c) { return c.result.has_potential; })
+      .def_prop_ro("has_potential", [](const Comparison& c) { return c.result.potential.compared; })
       .def_prop_ro(
           "unit", [](const Comparison& c) { return potential_unit_text(c.result); },
           "Of potentials; of those that see neither water nor a dielectric, kT/e in vacuum.")
