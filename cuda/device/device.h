@@ -11,18 +11,11 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/multiversion.h"
 #include "base/vector.h"
 #include "cuda/device/buffer.h"
 #include "cuda/device/launch.h"
 
-// Compiles a hot host function for several instruction sets and picks one at load time. Without contraction all
-// versions give the same bits. The levels name features; a processor's name would only match that vendor's.
-#if defined(__GNUC__) && !defined(__CUDACC__) && defined(__x86_64__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define ESPDIFF_MULTIVERSION __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define ESPDIFF_MULTIVERSION
-#endif
 #if defined(__CUDACC__)
 #define ESPDIFF_INLINE __host__ __device__ __forceinline__
 #define ESPDIFF_INLINE_LAMBDA

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/not_a_number.h"
+#include "base/triangle_areas.h"
 
 namespace espdiff {
 namespace {
@@ -30,16 +31,14 @@ std::vector<bool> border_residues(const Mesh& surface, const std::vector<std::in
   return borders;
 }
 
-/// [triangle] a third of its area
+/// [triangle] a third of its area, A^2
 std::vector<double> thirds_of_areas(const Mesh& surface) {
   std::vector<double> thirds(surface.triangles.size());
   const auto n = static_cast<std::ptrdiff_t>(thirds.size());
 #pragma omp parallel for schedule(static)
-  for (std::ptrdiff_t i = 0; i < n; ++i) {
-    const Triangle& t = surface.triangles[static_cast<std::size_t>(i)];
-    const Vec3f &a = surface.positions[t[0]], &b = surface.positions[t[1]], &c = surface.positions[t[2]];
-    thirds[static_cast<std::size_t>(i)] = static_cast<double>(norm(cross(b - a, c - a))) / 6;
-  }
+  for (std::ptrdiff_t i = 0; i < n; ++i)
+    thirds[static_cast<std::size_t>(i)] =
+        triangle_area(surface.positions, surface.triangles[static_cast<std::size_t>(i)]) / 3;
   return thirds;
 }
 
