@@ -13,7 +13,7 @@ namespace {
 const VtkFunctions* vtk_functions(std::string& problem) {
   const ProgramModule module = {
       "espdiff_vtk.so", "VTK, for pictures and `verify`",
-      "the libraries of VTK 9 that it was built with (Debian 12: libvtk9.1, 13: libvtk9.3; or apt install -f)"};
+      "the libraries of VTK 9 that it was built with (Debian: libvtk9.1 or libvtk9.3, or apt install -f)"};
   return static_cast<const VtkFunctions*>(load_module(module, problem));
 }
 
