@@ -135,15 +135,15 @@ void judge_placement(PartResult& part) {
   c.trustworthy = false;
 }
 
-const PartResult* part_of(const CompareResult& result, const std::string& name) {
+const PartResult* part_of(const std::vector<PartResult>& parts, const std::string& name) {
   const auto found =
-      std::find_if(result.parts.begin(), result.parts.end(), [&](const PartResult& part) { return part.name == name; });
-  return found == result.parts.end() ? nullptr : &*found;
+      std::find_if(parts.begin(), parts.end(), [&](const PartResult& part) { return part.name == name; });
+  return found == parts.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> part_names(const CompareResult& result) {
+std::vector<std::string> part_names(const std::vector<PartResult>& parts) {
   std::vector<std::string> names;
-  for (const PartResult& part : result.parts) names.push_back(part.name);
+  for (const PartResult& part : parts) names.push_back(part.name);
   return names;
 }
 

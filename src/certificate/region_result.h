@@ -66,8 +66,8 @@ bool judge_missing_part(PartResult& part);
 void judge_placement(PartResult& part);
 
 /// The numbers of the region (kRegionPart) or of a patch; null where there is none of that name.
-const PartResult* part_of(const CompareResult& result, const std::string& name);
+const PartResult* part_of(const std::vector<PartResult>& parts, const std::string& name);
 /// The names of all parts: the region, then patches.
-std::vector<std::string> part_names(const CompareResult& result);
+std::vector<std::string> part_names(const std::vector<PartResult>& parts);
 
 }  // namespace espdiff

@@ -213,15 +213,15 @@ TurnedArea turned_area(const MappedSurface& s, const SurfaceAreas& areas, const 
   return sums;
 }
 
-WholeSurface whole_surface(const CompareResult& result) {
-  if (!result.potential.compared || !(result.potential.metrics.area_A2 > 0)) return {kNaN, kNaN};
-  const MappedSurface& s = result.surface;
+WholeSurface whole_surface(const MappedSurface& s, const std::vector<ResidueRow>& residues,
+                           const PotentialComparison& potential) {
+  if (!potential.compared || !(potential.metrics.area_A2 > 0)) return {kNaN, kNaN};
   double largest = 0;
   for (std::size_t v = 0; v < s.potential_source.size(); ++v) {
     const double d = std::fabs(static_cast<double>(s.potential_target[v]) - static_cast<double>(s.potential_source[v]));
     if (std::isfinite(d)) largest = std::max(largest, d);
   }
-  std::vector<double> rest(result.residues.size(), 0.0);
+  std::vector<double> rest(residues.size(), 0.0);
   double all = 0, left_out = 0;
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     const double area = triangle_area(s.source_positions, s.triangles[t]);
@@ -233,7 +233,7 @@ WholeSurface whole_surface(const CompareResult& result) {
     }
   }
   double mapped = 0, own = 0, estimated = 0, known = 0;
-  for (const ResidueRow& row : result.residues) {
+  for (const ResidueRow& row : residues) {
     if (!std::isfinite(row.own_difference)) continue;
     known += rest[row.residue];
     estimated += rest[row.residue] * std::fabs(row.own_difference);
@@ -241,7 +241,7 @@ WholeSurface whole_surface(const CompareResult& result) {
     mapped += row.area_A2 * row.mean_abs_difference;
     own += row.area_A2 * std::fabs(row.own_difference);
   }
-  const double mean = result.potential.metrics.mean_abs_difference, ratio = own > 0 ? mapped / own : 1;
+  const double mean = potential.metrics.mean_abs_difference, ratio = own > 0 ? mapped / own : 1;
   const double of_rest = ratio * estimated + (left_out - known) * mean;
   return {((all - left_out) * mean + of_rest) / all, ((all - left_out) * mean + left_out * largest) / all};
 }

@@ -14,8 +14,8 @@
 namespace espdiff {
 
 struct Certificate;
-struct CompareResult;
 struct MappedSurface;
+struct PotentialComparison;
 struct SurfaceAreas;
 struct ResidueRow;
 
@@ -110,7 +110,8 @@ struct WholeSurface {
   double at_most = 0;  ///< if the rest has the largest difference of a vertex that has both potentials
 };
 /// NaN without potentials.
-WholeSurface whole_surface(const CompareResult& result);
+WholeSurface whole_surface(const MappedSurface& surface, const std::vector<ResidueRow>& residues,
+                           const PotentialComparison& potential);
 
 /// "TRUSTWORTHY", "TRUSTWORTHY ON 83 %" (of the smaller share, rounded down), or "NOT TRUSTWORTHY".
 std::string verdict_of(const Certificate& certificate);

@@ -42,7 +42,7 @@ std::string negated(std::string help);
 
 /// Adds a row as the option `words`; a boolean one as a flag, `--no-name` if it is on by default. A value is checked
 /// during parsing, so that the message names the option.
-/// @param take gets the texts, each by itself where `is_list`, whose option may be given several times
+/// @param take receives the texts, each by itself where `is_list`, whose option may be given several times
 template <typename Options>
 CLI::Option* add_row(CLI::App& parser, const std::string& words, const OptionRow<Options>& row, const Options& defaults,
                      const std::function<void(const std::string&)>& take, bool is_list = false) {

@@ -1,23 +1,30 @@
 // compare.cpp: the stages of a comparison, in order.
+#include "compare/compare.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
+#include "align/compared_chains.h"
 #include "align/geometry/rigid_domains.h"
 #include "align/geometry/superpose.h"
+#include "align/paired_residues.h"
+#include "align/protonation.h"
 #include "base/error.h"
 #include "base/handles.h"
+#include "certificate/certificate.h"
+#include "certificate/residue_rows.h"
 #include "certificate/result.h"
 #include "certificate/round_trip.h"
+#include "certificate/slip.h"
+#include "certificate/uncovered_surface.h"
 #include "compare/choose_motions.h"
-#include "compare/compare.h"
-#include "compare/evaluate.h"
 #include "compare/series.h"
-#include "compare/stages/check_potentials.h"
-#include "compare/stages/compare_fields.h"
+#include "compare/stages/fields.h"
 #include "compare/stages/last_step.h"
 #include "compare/stages/mapped_step.h"
-#include "compare/stages/patches_of_fields.h"
+#include "compare/stages/measured_parts.h"
+#include "compare/stages/potentials.h"
 #include "compare/stages/readings.h"
 #include "engine/engine.h"
 #include "field/field_kinds.h"
@@ -31,6 +38,37 @@
 #include "options/options.h"
 
 namespace espdiff {
+namespace {
+
+/// Adds warnings behind those of earlier stages.
+void append(std::vector<Warning>& all, std::vector<Warning> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(all));
+}
+
+/// Which chains and which protonation states were compared.
+void describe_chains(const Molecule& a, const Molecule& b, const std::vector<std::uint8_t>& region,
+                     const std::vector<std::int32_t>& target_of, CompareResult& result) {
+  InputReport& inputs = result.inputs;
+  inputs.chains = compared_chains(a, b, target_of);
+  inputs.source_copies = repeated_chains(a);
+  inputs.target_copies = repeated_chains(b);
+  if (!a.charges.empty() && !b.charges.empty()) inputs.protonation = protonation_differences(a, b, target_of);
+  if (!inputs.protonation.empty()) inputs.warnings.push_back({protonation_warning(inputs.protonation, a), false});
+  append(inputs.warnings, composition_warnings(a, b, region, result.alignment, result.surface, result.uncovered));
+}
+
+/// The verdicts on the whole and on its parts.
+void judge_all(const Molecule& molecule, const SurfaceAreas& areas, double required_share,
+               std::vector<MeasuredPart>& parts, CompareResult& result) {
+  Certificate& certificate = result.certificate;
+  certificate.trusted = sum_trusted(result.surface, areas, {}, certificate.unmatched_target);
+  certificate.turned = turned_area(result.surface, areas, {}, molecule);
+  certificate.untrusted_parts = untrusted_parts(result.surface, areas, result.residues, molecule);
+  judge(result, result.inputs.warnings, molecule, required_share);
+  for (MeasuredPart& part : parts) finish_part(part, result, areas, molecule, required_share);
+}
+
+}  // namespace
 
 /// The stages of a step, and the state kept between steps; all in the common frame, which is the source's.
 struct Series::Steps {
@@ -154,7 +192,7 @@ struct Series::Steps {
   /// Refuses what cannot be compared, before any work.
   void check_inputs(const CompareInput& target) const {
     check_maps(source.input, target);
-    check_causes(options, source.input, target);
+    if (!options.causes.empty()) check_causes(options, source.input, target);
     if (has_map(source.input)) return;
     refuse_fields_of_potential(fields);
     refuse_patches_of_potential(options);
@@ -179,6 +217,60 @@ struct Series::Steps {
     } else {
       result.certificate.not_checked.emplace_back("round_trip");
     }
+  }
+
+  /// The numbers of a mapping, stage by stage, and the verdicts on the whole and its parts.
+  /// @param step   its surface and rows become the result's
+  /// @param result with what the stages before found; receives the rest, but for the causes
+  /// @returns the readings whose causes are asked for
+  std::optional<Readings> evaluate(const StatesToMap& states, const ComparedSide& target, MappedStep& step,
+                                   CompareResult& result, const Progress& progress, StageClock& clock) const {
+    progress.report("metrics", 0.0);
+    Certificate& certificate = result.certificate;
+    if (!certificate.slip) certificate.not_checked.emplace_back("slip");
+    const std::vector<std::int32_t> target_of = paired_residues(states.source, states.target, result.alignment.pairing);
+    std::vector<MeasuredPart> parts = measure_parts(states, step, source.input.parts, target_of);
+    MappedNormals normals = normals_of(states, step);
+    MappedSurface& s = result.surface = std::move(step.surface);
+    s.normals = std::move(normals.target);
+    s.source_normals = std::move(normals.source);
+    const std::vector<float> beyond = engine.download(certificate.target_to_mapped.beyond);
+    if (std::any_of(beyond.begin(), beyond.end(), [](float flag) { return flag != 0; }))
+      result.uncovered =
+          uncovered_surface(engine.download(target.surface.mesh), beyond, inverse(step.frame.from_target));
+    std::vector<PotentialSamples> samples;
+    result.residues = std::move(step.rows);
+    if (target.map.map != nullptr) {
+      samples = sample_potentials(engine, source, target, options, step);
+      s.potential_source = samples.front().source;
+      s.potential_target = samples.front().target;
+      set_unmatched_to_nan(step.is_matched, s.potential_target);
+      mark_without_potential(s);
+      certificate.outside_maps = share_outside(s, matched_areas(s, step.areas));
+      result.residues = residue_rows(s, step.areas, states.source.residues.size(), true);
+    }
+    ResidueAgreement agreement =
+        check_residues_of(states, source, target, unit, step, target_of, s, std::move(result.residues));
+    result.residues = std::move(agreement.rows);
+    certificate.residues = agreement.check;
+    if (agreement.is_not_checked) certificate.not_checked.emplace_back("residues");
+    append(result.inputs.warnings, std::move(agreement.warnings));
+    if (target.map.map != nullptr) result.potential = compare_potentials(engine, samples, unit, step, s, parts);
+    if (!fields.empty() || !options.patches_of.empty()) {
+      ComparedFields compared =
+          compare_fields(engine, fields, source, target, options, step, s, result.potential.unit, parts);
+      result.fields = std::move(compared.fields);
+      result.field_patches = std::move(compared.patches);
+      append(result.inputs.warnings, std::move(compared.warnings));
+    }
+    describe_chains(states.source, states.target, source.input.parts.region, target_of, result);
+    judge_all(states.source, step.areas, options.required_share, parts, result);
+    clock.lap("metrics");
+    std::optional<Readings> readings;
+    if (!options.causes.empty())
+      readings = take_readings(engine, source, target, options, parts, target_of, step, result);
+    for (MeasuredPart& part : parts) result.parts.push_back(std::move(part.result));
+    return readings;
   }
 
   /// Runs the stages in order; see Series::step().
@@ -217,7 +309,7 @@ struct Series::Steps {
     const LastStep* const before = result.mapping.start == StartFrom::kPrevious ? &*from : nullptr;
     MappedStep mapped = map_as_needed(states, frame, before, again, progress, clock);
     adopt_mapping(states, mapped, std::move(findings.not_checked), result, progress, clock);
-    std::optional<Readings> readings = evaluate(states, fields, source, target, unit, mapped, result, progress, clock);
+    std::optional<Readings> readings = evaluate(states, target, mapped, result, progress, clock);
     if (options.method == Method::kMorph) {
       last = after_morph(mapped.morphed, *input.molecule, frame.from_target, std::move(target_atoms), before,
                          result.certificate.unmatched_source);

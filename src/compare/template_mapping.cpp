@@ -12,7 +12,7 @@
 #include "certificate/certificate.h"
 #include "certificate/result.h"
 #include "certificate/trusted_area.h"
-#include "compare/stages/compare_fields.h"
+#include "compare/stages/fields.h"
 #include "compare/stages/mapped_step.h"
 #include "compare/stages/readings.h"
 #include "engine/engine.h"

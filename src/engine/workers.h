@@ -39,7 +39,8 @@ using ComputeItem = std::function<void(std::size_t item, const Progress& progres
 ///        caller makes of it; what it throws ends the run. Not for Cancelled.
 /// @param done  called on this thread for each item, in ascending order. After a request to cancel it is called for
 ///        all items that were computed before it.
-/// @param progress gets the stage of the first item that is not done, and the fraction of items done; on this thread
+/// @param progress receives the stage of the first item that is not done, and the fraction of items done; on this
+/// thread
 /// @throws what `failed` throws for the first of the items that fail, after done() of all items before it; what done()
 ///         throws; Cancelled
 void compute_items(Engine& engine, const Workers& workers, const ItemGroups& groups,

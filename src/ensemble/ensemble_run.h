@@ -70,7 +70,7 @@ std::string ensemble_path(const std::string& output_prefix, const Shard& shard);
 /// @param plan     all but residues
 /// @param source   the template
 /// @param read     a frame of all; it lives until the next one is asked for
-/// @param progress gets "frame 12 of 400, 3 min left; wild, replicate w1, frame 11: morph"
+/// @param progress receives "frame 12 of 400, 3 min left; wild, replicate w1, frame 11: morph"
 /// @throws InputError (the file exists and neither resume nor overwrite was asked for; it is of another run), and as
 ///         TemplateMapping; a frame's error names it
 EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInput& source,

@@ -69,7 +69,7 @@ CompareOptions ensemble_options(const std::vector<std::pair<std::string, std::st
 /// Maps what is missing in OUT.h5, computes the statistics, and writes the results. Everything that can be checked
 /// before the first frame is mapped, is.
 /// @param make_engine called when the inputs have been checked
-/// @param warn        gets what the design cannot show, before the work
+/// @param warn        receives what the design cannot show, before the work
 /// @throws as EnsembleInputs, run_ensemble(), analyse_ensemble(), write_ensemble(); InputError (parts of the study that
 ///         exclude each other)
 EnsembleAnswer run_study(const EnsembleStudy& study, const std::function<std::unique_ptr<Engine>()>& make_engine,

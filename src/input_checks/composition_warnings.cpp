@@ -310,37 +310,37 @@ void check_left_out_residues(const char* role, const Molecule& molecule, const R
 }  // namespace
 
 std::vector<Warning> composition_warnings(const Molecule& source, const Molecule& target,
-                                          const std::vector<std::uint8_t>& region, const CompareResult& result) {
+                                          const std::vector<std::uint8_t>& region, const Alignment& alignment,
+                                          const MappedSurface& s, const UncoveredSurface& uncovered) {
   std::vector<Warning> warnings;
   const ResidueView source_view(source), target_view(target);
-  const MappedSurface& s = result.surface;
   ComposedSide a{"source", source_view, {}, {}, s, s.source_positions, nullptr};
-  ComposedSide b{"target", target_view, {}, {}, s, s.positions, &result.uncovered};
+  ComposedSide b{"target", target_view, {}, {}, s, s.positions, &uncovered};
   for (ComposedSide* const side : {&a, &b}) {
     side->atom_is_paired.assign(side->view.molecule->size(), false);
     side->residue_is_paired.assign(side->view.kinds.size(), false);
   }
   std::vector<bool> source_moved(source_view.kinds.size(), false), target_moved(target_view.kinds.size(), false);
-  for (const auto& [i, j] : result.alignment.pairing.pairs) {
+  for (const auto& [i, j] : alignment.pairing.pairs) {
     a.atom_is_paired[i] = b.atom_is_paired[j] = true;
     a.residue_is_paired[static_cast<std::size_t>(source.atoms[i].residue)] = true;
     b.residue_is_paired[static_cast<std::size_t>(target.atoms[j].residue)] = true;
   }
-  for (const MovedResidue& moved : result.alignment.pairing.moved)
+  for (const MovedResidue& moved : alignment.pairing.moved)
     source_moved[moved.source] = target_moved[moved.target] = true;
-  if (!result.alignment.pairing.pairs.empty()) {
+  if (!alignment.pairing.pairs.empty()) {
     std::vector<UnpairedGroup> of_source = unpaired_others(a, source_moved),
                                of_target = unpaired_others(b, target_moved);
-    take_replaced(of_source, of_target, result.alignment.source_to_target, a, warnings);
+    take_replaced(of_source, of_target, alignment.source_to_target, a, warnings);
     check_unpaired(a, std::move(of_source), warnings);
     check_unpaired(b, std::move(of_target), warnings);
-    const std::vector<std::int32_t> target_of = paired_residues(source, target, result.alignment.pairing);
+    const std::vector<std::int32_t> target_of = paired_residues(source, target, alignment.pairing);
     check_missing_atoms(a, target_view, target_of, warnings);
     check_missing_atoms(b, source_view, source_residues(target_of, target.residues.size()), warnings);
     check_recharged(a, b, target_of, warnings);
   }
   check_left_out_residues("source", source, RigidTransform(), source, region, warnings);
-  check_left_out_residues("target", target, inverse(result.alignment.source_to_target), source, region, warnings);
+  check_left_out_residues("target", target, inverse(alignment.source_to_target), source, region, warnings);
   return warnings;
 }
 

@@ -49,8 +49,9 @@ void check_geometry(const char* role, const ResidueView& view, std::vector<Warni
 /// option left out (composition_warnings.cpp); each with its charge, and with the area of the surface within 5 A where
 /// there is a surface. None of them refuses.
 /// @param region [source residue] nonzero in the region, to which distances are given; empty for none
-/// @param result with pairing and superposition; with the surface for areas
+/// @param surface, uncovered empty where there is none: no areas then
 std::vector<Warning> composition_warnings(const Molecule& source, const Molecule& target,
-                                          const std::vector<std::uint8_t>& region, const CompareResult& result);
+                                          const std::vector<std::uint8_t>& region, const Alignment& alignment,
+                                          const MappedSurface& surface, const UncoveredSurface& uncovered);
 
 }  // namespace espdiff

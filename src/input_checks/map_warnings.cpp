@@ -154,7 +154,6 @@ std::vector<Warning> map_warnings(const char* role, const Grid& map, const MapRe
 
 void pair_warnings(const CompareInput& source, const CompareInput& target, const MapReferences* of_source,
                    const MapReferences* of_target, const ComparedMaps& maps, std::vector<Warning>& warnings) {
-  if (source.map == nullptr || target.map == nullptr) return;
   if (same_map(*source.map, *target.map) && !same_state(*source.molecule, *target.molecule)) {
     warnings.push_back(refuse("one map is given for two different states (" + source.map->name + ", " +
                               target.map->name + "): each state has a potential of its own"));

@@ -51,7 +51,7 @@ MatrixCell cell_of(const MatrixPair& pair, const CompareResult& result) {
   cell.converged = result.certificate.converged;
   cell.trustworthy = result.certificate.trustworthy;
   for (const std::string& part : compared.parts)
-    cell.parts_trustworthy.push_back(part_of(result, part)->certificate.trustworthy ? 1 : 0);
+    cell.parts_trustworthy.push_back(part_of(result.parts, part)->certificate.trustworthy ? 1 : 0);
   for (const Message& reason : result.certificate.reasons) cell.reasons.push_back(reason.plain());
   for (const Warning& warning : result.inputs.warnings) {
     if (!warning.refuses) cell.warnings.push_back(warning.text.plain());  // those that refuse are reasons

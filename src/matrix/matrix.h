@@ -57,7 +57,7 @@ std::vector<MatrixPair> matrix_pairs(std::size_t n_variants, const Shard& shard 
 /// @param skip_errors a pair that cannot be compared becomes a cell with the error; otherwise its error is thrown, with
 /// the labels of the pair
 /// @param done        called with each finished cell, in the given order, on this thread
-/// @param progress    gets "LABEL to LABEL: stage" and the fraction of `pairs` done
+/// @param progress    receives "LABEL to LABEL: stage" and the fraction of `pairs` done
 /// @throws as compare()
 void compute_pairs(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                    const std::vector<MatrixPair>& pairs, bool skip_errors,

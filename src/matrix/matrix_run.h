@@ -73,7 +73,7 @@ void finish_matrix(const MatrixRun& run, Matrix matrix, MatrixReport& report);
 /// Computes the shard's pairs that the state file lacks and writes each into it. Then, for a whole matrix, writes the
 /// results (write_matrix()) and removes the state file. A shard's state file stays for merge_matrix(). After an error
 /// or a cancellation the state file has all finished cells.
-/// @param progress gets "pair 12 of 342, 3 min left; LABEL to LABEL: stage"
+/// @param progress receives "pair 12 of 342, 3 min left; LABEL to LABEL: stage"
 /// @throws InputError (both resume and overwrite; results or state files exist and neither was asked for; as
 ///         make_plan(), MatrixState), and as compute_pairs()
 MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/molecule/earlier_patch.h"
 #include "base/molecule/input_options.h"
-#include "compare/stages/compare_fields.h"
+#include "compare/stages/fields.h"
 #include "field/field_kinds.h"
 #include "io/files/read_csv.h"
 #include "io/structures/structure_file.h"

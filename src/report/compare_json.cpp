@@ -283,7 +283,7 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   json["warnings"] = warnings(result, spelling);
   add_verdict(json["certificate"], result.certificate, spelling);
   json["metrics_all_triangles"] = metrics_all_triangles(result);
-  const WholeSurface whole = whole_surface(result);
+  const WholeSurface whole = whole_surface(result.surface, result.residues, result.potential);
   json["whole_surface"] = {
       {"mean_abs_difference", {{"estimate", json_number(whole.estimate)}, {"at_most", json_number(whole.at_most)}}}};
   json["fields"] = compared_fields_json(result, "");
@@ -338,8 +338,8 @@ Json compare_json(const Molecule& source, const Molecule& target, const CompareR
   json["format_version"] = kFormatVersion;
   json["names"] = {{"source", source.name}, {"target", target.name}};
   add_results(json, source, result, spelling);
-  json["field_patches"] = field_patches_json(source, target, result);
-  json["interface"] = interface_json(result);
+  json["field_patches"] = field_patches_json(source, target, result.field_patches);
+  json["interface"] = result.interface == nullptr ? Json(nullptr) : interface_json(*result.interface);
   json["time_ms"] = Json::object();
   for (const auto& [stage, ms] : result.time_ms) json["time_ms"][stage] = json_number(ms);
   json["device"] = provenance.device;

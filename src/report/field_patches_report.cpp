@@ -101,9 +101,9 @@ std::string state_in_words(const Record& entry, const std::string& state) {
 
 }  // namespace
 
-Json field_patches_json(const Molecule& source, const Molecule& target, const CompareResult& result) {
+Json field_patches_json(const Molecule& source, const Molecule& target, const std::vector<FieldPatches>& all) {
   Json json = Json::array();
-  for (const FieldPatches& of : result.field_patches) {
+  for (const FieldPatches& of : all) {
     Json entry{{"field", of.quantity.name},
                {"unit", of.quantity.unit},
                {"above", of.request.above ? Json(*of.request.above) : Json(nullptr)},
@@ -121,11 +121,11 @@ Json field_patches_json(const Molecule& source, const Molecule& target, const Co
 }
 
 void write_field_patches(std::ostream& out, const Molecule& source, const Molecule& target,
-                         const CompareResult& result) {
+                         const std::vector<FieldPatches>& all) {
   std::vector<std::string> names;
   for (const PatchColumn& column : kColumns) names.emplace_back(column.name);
   write_csv_row(out, names);
-  for (const FieldPatches& of : result.field_patches) {
+  for (const FieldPatches& of : all) {
     visit_rows(of, source, target, [&](const PatchRow& row) {
       std::vector<std::string> cells;
       for (const PatchColumn& column : kColumns) cells.push_back(csv_cell(column.value(row)));

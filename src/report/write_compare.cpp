@@ -138,10 +138,10 @@ void write_residue_file(std::ostream& out, const Molecule& source, const Compare
   const std::vector<Metric> of_residues = residue_metrics(result);
   for (const Metric& metric : of_residues) columns.push_back(column_of(metric, potential_unit_text(result)));
   std::vector<std::set<std::size_t>> parts;
-  for (const std::string& part : part_names(result)) {
-    columns.push_back(part == kRegionPart ? part : "patch_" + part);
+  for (const PartResult& part : result.parts) {
+    columns.push_back(part.name == kRegionPart ? part.name : "patch_" + part.name);
     parts.emplace_back();
-    for (const ResidueRow& row : part_of(result, part)->residues) parts.back().insert(row.residue);
+    for (const ResidueRow& row : part.residues) parts.back().insert(row.residue);
   }
   write_csv_row(out, columns);
   for (const ResidueRow& row : result.residues) {
@@ -204,7 +204,9 @@ void write_of_causes(std::ostream& out, const Compared& of) {
 
 constexpr FurtherFile kFurtherFiles[] = {
     {".field_patches.csv", [](const CompareOptions& o) { return !o.patches_of.empty(); },
-     [](std::ostream& out, const Compared& of) { write_field_patches(out, of.source, of.target, of.result); }},
+     [](std::ostream& out, const Compared& of) {
+       write_field_patches(out, of.source, of.target, of.result.field_patches);
+     }},
     {".interface.csv", [](const CompareOptions& o) { return !o.interface.empty(); },
      [](std::ostream& out, const Compared& of) {
        const InterfaceComparison& interface = *of.result.interface;

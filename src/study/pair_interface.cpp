@@ -14,7 +14,6 @@ namespace espdiff {
 
 PairInterface::PairInterface(const CompareOptions& options, ComparedState& source, ComparedState& target)
     : options_(options) {
-  if (options.interface.empty()) return;
   request_ = parse_interface(options.interface);
   for (ComparedState* state : {&source, &target}) {
     LoadedState& loaded = state->loaded;
@@ -37,8 +36,8 @@ PairInterface::PairInterface(const CompareOptions& options, ComparedState& sourc
   }
 }
 
-StatePtr PairInterface::without_others(const CompareOptions& options, const StatePtr& given) {
-  if (options.interface.empty() || !given->potential) return given;
+StatePtr PairInterface::without_others(const StatePtr& given) {
+  if (!given->potential) return given;
   State alone = *given;
   alone.potential->charges = {};
   alone.potential->surroundings.solute.clear();
@@ -65,7 +64,6 @@ void PairInterface::make_fields(Engine& engine, const State& source, const State
 }
 
 void PairInterface::add_to(CompareResult& result) const {
-  if (sides_.empty()) return;
   const Complementarity &source = sides_[0].interface->result(), &target = sides_[1].interface->result();
   ComplementarityResult both{request_, {&source, &target}, std::vector<InterfaceChange>(2)};
   for (std::size_t side = 0; side < 2; ++side) {

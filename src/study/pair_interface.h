@@ -15,12 +15,12 @@ class Engine;
 /// Takes both complexes apart: the first partners are compared, the second ones add their potentials.
 class PairInterface {
  public:
-  /// Leaves the first partner in each state. Does nothing without an interface in the options.
+  /// Leaves the first partner in each state. @param options name an interface
   /// @throws InputError (partners, as atoms_of())
   PairInterface(const CompareOptions& options, ComparedState& source, ComparedState& target);
 
   /// The state as the maps of its first partner are made: charges of other atoms that it was given do not count.
-  static StatePtr without_others(const CompareOptions& options, const StatePtr& given);
+  static StatePtr without_others(const StatePtr& given);
 
   /// Makes the potentials of all partners, and from them the field of each state. The states refer to this object.
   /// @throws InputError (a state without a computed potential; as InterfaceOfComplex)

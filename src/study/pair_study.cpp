@@ -1,6 +1,7 @@
 // pair_study.cpp: the order of a pair's parts.
 #include "study/pair_study.h"
 
+#include <optional>
 #include <utility>
 
 #include "compare/compare.h"
@@ -34,15 +35,17 @@ PairAnswer run_pair(const PairStudy& study, Engine& engine, const Progress& prog
   PairAnswer answer;
   answer.options = study.options;
   const InputOptions& input = study.options.input;
-  const StatePtr given_source = PairInterface::without_others(study.options, study.source),
-                 given_target = PairInterface::without_others(study.options, study.target);
+  const bool has_interface = !study.options.interface.empty();
+  const StatePtr given_source = has_interface ? PairInterface::without_others(study.source) : study.source,
+                 given_target = has_interface ? PairInterface::without_others(study.target) : study.target;
   StateReader reader({study.options, study.potential, study.each_by_itself, study.refuses_shapes, engine.n_threads()},
                      {given_source, given_target}, progress);
   ComparedState source = reader.read(StateRole::kSource, nullptr, study.target.get());
   Molecule& source_molecule = source.loaded.molecule;
   ComparedState target = reader.read(StateRole::kTarget, &source_molecule);
   Molecule& target_molecule = target.loaded.molecule;
-  PairInterface interface(study.options, source, target);
+  std::optional<PairInterface> interface;
+  if (has_interface) interface.emplace(study.options, source, target);
   const PotentialPlan plan = reader.add_maps({&source, &target});
 
   answer.provenance = provenance_of(engine, study.command_line, source, target);
@@ -52,9 +55,9 @@ PairAnswer run_pair(const PairStudy& study, Engine& engine, const Progress& prog
   if (study.check_kept) study.check_kept(answer.kept);
   const std::string radii_note = set_surface_radii({&source_molecule, &target_molecule}, input.radii);
   source.take_parts(source_parts(source_molecule, source.whole(), target_molecule, target.whole(), input));
-  interface.make_fields(engine, *given_source, *given_target, plan, progress);
+  if (interface) interface->make_fields(engine, *given_source, *given_target, plan, progress);
   answer.result = compare(engine, source.side(), target.side(), study.options, progress);
-  interface.add_to(answer.result);
+  if (interface) interface->add_to(answer.result);
   note_states(answer.result, source.loaded, target.loaded, radii_note);
   if (!answer.result.potential.compared)
     answer.result.inputs.shapes_because = plan.because().empty() ? study.source->shapes_because : plan.because();

@@ -29,7 +29,7 @@ struct TrajectoryStudy {
   CompareOptions options{};
   TrajectoryRequest request{};
   std::string picture;                                ///< of the rows, which the caller draws; empty for none
-  std::function<void(const std::string&)> tell = {};  ///< gets a resumed run's warning before its first step
+  std::function<void(const std::string&)> tell = {};  ///< receives a resumed run's warning before its first step
 
   Reference reference() const {
     if (!source_frames.empty()) return Reference::kSame;

@@ -71,7 +71,7 @@ struct TrajectorySummary {
 class TrajectoryRun {
  public:
   /// @throws InputError (no frames; rows of other frames), as ResidueCsv::resume()
-  /// @param residues gets the residues of each frame as well
+  /// @param residues receives the residues of each frame as well
   TrajectoryRun(TrajectoryPlan plan, SeriesCsv file, std::optional<ResidueCsv> residues = std::nullopt);
 
   bool is_done() const { return position_ == steps_.size(); }

@@ -247,11 +247,11 @@ TEST_CASE("the whole surface is estimated from the residues' own surfaces, and b
   for (espdiff::ResidueRow& row : result.residues) row.own_difference = 0.5;
   result.residues[2].own_difference = 2;  // twice what its own surfaces say, as in the trusted part: 4
   result.residues[3].own_difference = kNan;
-  const espdiff::WholeSurface whole = espdiff::whole_surface(result);
+  const espdiff::WholeSurface whole = espdiff::whole_surface(result.surface, result.residues, result.potential);
   CHECK(whole.estimate == doctest::Approx((1 + 1 + 4 + 1) / 4.0));
   CHECK(whole.at_most == doctest::Approx((1 + 1 + 5 + 5) / 4.0));
   result.potential.compared = false;
-  CHECK(std::isnan(espdiff::whole_surface(result).estimate));
+  CHECK(std::isnan(espdiff::whole_surface(result.surface, result.residues, result.potential).estimate));
 }
 
 TEST_SUITE_END();

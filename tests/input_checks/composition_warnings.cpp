@@ -16,10 +16,10 @@ namespace {
 
 std::vector<std::string> composition_of(const Molecule& a, const Molecule& b,
                                         const std::vector<std::uint8_t>& region = {}) {
-  CompareResult result;
-  result.alignment.pairing = pair_atoms(a, b);
+  Alignment alignment;
+  alignment.pairing = pair_atoms(a, b);
   std::vector<std::string> texts;
-  for (const Warning& warning : composition_warnings(a, b, region, result)) {
+  for (const Warning& warning : composition_warnings(a, b, region, alignment, {}, {})) {
     texts.push_back(warning.text.plain());
     CHECK_FALSE(warning.refuses);
   }
@@ -54,13 +54,14 @@ TEST_CASE("composition_warnings: a group near the surface has its area, one far 
   const Molecule bare = made_peptide(12);
   Molecule zinc = bare;
   add_ion(zinc, "ZN", 2);
-  CompareResult result;
-  result.alignment.pairing = pair_atoms(zinc, bare);
+  Alignment alignment;
+  alignment.pairing = pair_atoms(zinc, bare);
+  MappedSurface surface;
   // A triangle of 2 A^2 beside the ion, and one far away.
-  result.surface.source_positions = {{5, -6, 3}, {7, -6, 3}, {5, -4, 3}, {50, 0, 0}, {52, 0, 0}, {50, 2, 0}};
-  result.surface.positions = result.surface.source_positions;
-  result.surface.triangles = {{0, 1, 2}, {3, 4, 5}};
-  const auto warnings = composition_warnings(zinc, bare, {}, result);
+  surface.source_positions = {{5, -6, 3}, {7, -6, 3}, {5, -4, 3}, {50, 0, 0}, {52, 0, 0}, {50, 2, 0}};
+  surface.positions = surface.source_positions;
+  surface.triangles = {{0, 1, 2}, {3, 4, 5}};
+  const auto warnings = composition_warnings(zinc, bare, {}, alignment, surface, {});
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0].text.plain() ==
         "the source has 1 group that the target has not: ZN 900 of chain A (1 atom, +2 e, 2 "

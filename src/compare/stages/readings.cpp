@@ -110,7 +110,6 @@ std::vector<double> take_probes(std::vector<double>& values, std::size_t n_charg
 }  // namespace
 
 void check_causes(const CompareOptions& options, const CompareInput& source, const CompareInput& target) {
-  if (options.causes.empty()) return;
   if (!source.make_map || !target.make_map)
     throw InputError(option("causes") +
                      " needs potentials that are computed for both states: a given map does not say which charges it "
@@ -152,11 +151,11 @@ PotentialReading weighted_reading(const std::vector<Vec3f>& points, const std::v
   return reading;
 }
 
-Readings take_readings(Engine& engine, const PotentialSide& source, const PotentialSide& target,
+Readings take_readings(Engine& engine, const ComparedSide& source, const ComparedSide& target,
                        const CompareOptions& options, const std::vector<MeasuredPart>& parts,
                        std::vector<std::int32_t> target_of, const MappedStep& step, const CompareResult& result) {
   const float isovalue = static_cast<float>(options.surface.isovalue);
-  const auto points_of = [&](const PotentialSide& side, const MeshPtr& mesh) {
+  const auto points_of = [&](const ComparedSide& side, const MeshPtr& mesh) {
     return engine.download_positions(
         moved_outside(engine, mesh, side.surface.atoms, isovalue, options.offsets_A.front()));
   };
@@ -169,8 +168,8 @@ Readings take_readings(Engine& engine, const PotentialSide& source, const Potent
     readings.of_source.push_back(weighted_reading(on_source, weights, result.surface.potential_source));
     readings.of_target.push_back(weighted_reading(on_target, weights, result.surface.potential_target));
   }
-  readings.source_map = engine.without_values(source.map);
-  readings.target_map = engine.without_values(target.map);
+  readings.source_map = engine.without_values(source.map.map);
+  readings.target_map = engine.without_values(target.map.map);
   readings.target_of = std::move(target_of);
   return readings;
 }

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "compare/stages/compare_potentials.h"
+#include "compare/stages/potentials.h"
 #include "engine/potential_stage.h"
 #include "mapping/input.h"
 
@@ -37,7 +37,7 @@ PotentialReading weighted_reading(const std::vector<Vec3f>& points, const std::v
 /// The readings that the options ask for. The result's surface and residues are complete.
 /// @param target_of [source residue] from paired_residues()
 /// @throws InputError for a reading without surface
-Readings take_readings(Engine& engine, const PotentialSide& source, const PotentialSide& target,
+Readings take_readings(Engine& engine, const ComparedSide& source, const ComparedSide& target,
                        const CompareOptions& options, const std::vector<MeasuredPart>& parts,
                        std::vector<std::int32_t> target_of, const MappedStep& step, const CompareResult& result);
 

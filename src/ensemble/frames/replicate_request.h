@@ -37,7 +37,7 @@ std::vector<ReplicateRequest> replicates_of_groups(const std::vector<std::vector
 
 /// Replicates of a table with the columns group, structure, and optionally replicate (rows of one replicate follow each
 /// other), topology, charges and maps (a pattern). Paths are relative to the table.
-/// @param charges gets the files of the groups
+/// @param charges receives the files of the groups
 /// @throws as read_csv()
 std::vector<ReplicateRequest> replicates_of_list(const std::string& path, std::map<std::string, std::string>& charges);
 

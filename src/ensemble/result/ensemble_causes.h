@@ -41,7 +41,7 @@ void check_ensemble_causes(const CompareOptions& options, const CompareInput& so
 /// Maps every frame of the statistics again, and takes the patches of `options.causes` apart: each takes about as long
 /// as before, and half as long again for each patch. Replicates are the samples, as they are for potentials.
 /// @param result with its patches: `patch NAME` is a fixed one, `patch 2` the second that was found significant
-/// @param tell   gets, after the first frame, how long all of them take
+/// @param tell   receives, after the first frame, how long all of them take
 /// @param read   a frame of all; it lives until the next one is asked for
 /// @throws InputError (no such patch), and as TemplateMapping
 std::vector<EnsembleCauses> find_ensemble_causes(Engine& engine, const CompareInput& source,

@@ -16,7 +16,7 @@ std::string folder_of(const std::string& path);
 std::string sibling_name(const std::string& target, const char* suffix);
 
 /// Makes a file beside `target`, through no link, and locks it, so that others see that its process lives.
-/// @param name gets its name  @returns a file that is not open, with its error, where it cannot be made
+/// @param name receives its name  @returns a file that is not open, with its error, where it cannot be made
 OpenFile make_sibling(const std::string& target, std::string& name);
 
 /// Gives a new file that has no name one beside `target`. @returns 0, or the error's number

@@ -50,7 +50,7 @@ AtomEntry psf_entry(const std::vector<std::string_view>& words, long line) {
 }
 
 /// Words of an atom: number, segment, residue number, residue, atom, type, charge, mass.
-/// @param builder gets the atoms with their residues; null to leave them out
+/// @param builder receives the atoms with their residues; null to leave them out
 void read_psf(const std::string& text, Topology& topology, MoleculeBuilder* builder) {
   TextCursor cursor(text, topology.path);
   while (!cursor.at_end()) {

@@ -462,7 +462,7 @@ bool PartsAndFields::operator<(const PartsAndFields& other) const {
 }
 
 PartsAndFields parts_and_fields(const CompareResult& result) {
-  PartsAndFields compared(part_names(result));
+  PartsAndFields compared(part_names(result.parts));
   for (const FieldResult& field : result.fields) compared.fields.push_back(field.quantity);
   return compared;
 }
@@ -537,7 +537,7 @@ const Metric* metric_of_column(const std::string& name, const std::vector<Quanti
 
 double value_of(const Metric& metric, const CompareResult& result) {
   if (*metric.part == '\0') return value_on(metric, result);
-  const PartResult* const part = part_of(result, metric.part);
+  const PartResult* const part = part_of(result.parts, metric.part);
   return part == nullptr ? kNaN : value_on(metric, *part);
 }
 

@@ -54,9 +54,7 @@ Json change_of_complementarity(const StateComplementarity& source, const StateCo
           {"spearman", json_number(target.spearman - source.spearman)}};
 }
 
-Json interface_json(const CompareResult& result) {
-  if (result.interface == nullptr) return nullptr;
-  const InterfaceComparison& of = *result.interface;
+Json interface_json(const InterfaceComparison& of) {
   Json json{{"first", of.first}, {"second", of.second}};
   json["source"] = complementarity_json(of.source);
   json["target"] = complementarity_json(of.target);

@@ -9,7 +9,7 @@
 
 namespace espdiff {
 
-struct CompareResult;
+struct InterfaceComparison;
 struct InterfaceRow;
 struct StateComplementarity;
 class Record;
@@ -23,7 +23,7 @@ nlohmann::ordered_json change_of_complementarity(const StateComplementarity& sou
                                                  const StateComplementarity& target);
 
 /// OUT.json's `interface`: first, second, source, target, change; null without one.
-nlohmann::ordered_json interface_json(const CompareResult& result);
+nlohmann::ordered_json interface_json(const InterfaceComparison& interface);
 
 /// OUT.interface.csv: the columns of each state, and with two the change of the contribution.
 void write_interface_rows(std::ostream& out, const std::string& first, const std::string& second, std::size_t n_states,

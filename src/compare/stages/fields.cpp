@@ -1,12 +1,15 @@
-// compare_fields.cpp: reads fields on the two meshes of a mapping and compares them.
-#include "compare/stages/compare_fields.h"
+// fields.cpp: reads fields on the two meshes of a mapping, compares them, and finds their patches.
+#include "compare/stages/fields.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/triangle_areas.h"
+#include "certificate/result.h"
 #include "certificate/trusted_area.h"
 #include "engine/engine.h"
 #include "field/read_field.h"
@@ -58,6 +61,54 @@ std::vector<ResidueMeans> means_of(const FieldResult& field, const MappedSurface
                        n_residues);
 }
 
+/// A field's values in both states.
+struct FieldValues {
+  Quantity quantity;
+  const std::vector<float>& source;
+  const std::vector<float>& target;
+};
+
+FieldValues values_of(const std::string& name, const std::vector<FieldResult>& fields, const MappedSurface& s,
+                      PotentialUnit unit) {
+  for (const FieldResult& field : fields) {
+    if (field.quantity.name == name) return {field.quantity, field.source, field.target};
+  }
+  return {{"potential", "Potential", to_string(unit), true}, s.potential_source, s.potential_target};
+}
+
+/// Says how far the values reach.
+Warning without_patches(const FieldPatches& patches, const FieldValues& field) {
+  float least = std::numeric_limits<float>::infinity(), largest = -least;
+  for (const std::vector<float>* values : {&field.source, &field.target}) {
+    for (const float value : *values) {
+      if (!std::isfinite(value)) continue;
+      least = std::min(least, value);
+      largest = std::max(largest, value);
+    }
+  }
+  const std::size_t n_small = patches.n_small_source + patches.n_small_target;
+  std::string text = "patches of " + to_string(patches.request) + ": neither state has a connected area of " +
+                     formatted(kLeastFieldPatch_A2) + " A^2 there";
+  if (n_small > 0) text += " (" + std::to_string(n_small) + " smaller ones were left out)";
+  text += least > largest ? "; the field has no values"
+                          : "; the values go from " + formatted("%.4g", static_cast<double>(least)) + " to " +
+                                formatted("%.4g", static_cast<double>(largest)) +
+                                (field.quantity.unit.empty() ? "" : " " + field.quantity.unit);
+  return {text + ": take another threshold", false};
+}
+
+/// Adds the patches that the options ask for, of the compared fields and of the potential.
+void find_patches(const CompareOptions& options, const MappedSurface& s, PotentialUnit unit, ComparedFields& compared) {
+  for (const PatchesRequest& request : options.patches_of) {
+    const FieldValues field = values_of(request.field, compared.fields, s, unit);
+    FieldPatches patches =
+        find_field_patches(field.quantity, request, s.triangles, {s.source_positions, field.source, s.residue, {}},
+                           {s.positions, field.target, s.target_residue, s.unmatched}, s.why);
+    if (patches.source.empty() && patches.target.empty()) compared.warnings.push_back(without_patches(patches, field));
+    compared.patches.push_back(std::move(patches));
+  }
+}
+
 }  // namespace
 
 StateFields make_state_fields(const std::vector<Field>& fields, const Molecule& molecule, const FieldSide& side) {
@@ -82,29 +133,31 @@ void refuse_fields_of_potential(const std::vector<Field>& fields) {
   }
 }
 
-ComparedFields compare_fields(Engine& engine, const std::vector<Field>& fields, const FieldsOfSide& source,
-                              const FieldsOfSide& target, const CompareOptions& options, const MappedStep& step,
-                              const CompareResult& result, std::vector<MeasuredPart>& parts) {
+ComparedFields compare_fields(Engine& engine, const std::vector<Field>& fields, const ComparedSide& source,
+                              const ComparedSide& target, const CompareOptions& options, const MappedStep& step,
+                              const MappedSurface& surface, PotentialUnit unit, std::vector<MeasuredPart>& parts) {
   ComparedFields compared;
-  if (fields.empty()) return compared;
-  const std::vector<float> untrusted = untrusted_triangles(result.surface);
+  if (fields.empty()) {
+    find_patches(options, surface, unit, compared);
+    return compared;
+  }
+  const std::vector<float> untrusted = untrusted_triangles(surface);
   const float isovalue = static_cast<float>(options.surface.isovalue);
   const double offset_A = options.offsets_A.front();
-  const PotentialUnit unit = result.potential.unit;
-  const auto place = [&](const FieldsOfSide& side, const MeshPtr& mesh) {
+  const auto place = [&](const ComparedSide& side, const MeshPtr& mesh, const RigidTransform& to_common) {
     return FieldPlace{engine,
                       mesh,
-                      moved_outside(engine, mesh, side.atoms, isovalue, offset_A),
-                      side.molecule,
-                      side.to_common,
-                      side.atoms,
+                      moved_outside(engine, mesh, side.surface.atoms, isovalue, offset_A),
+                      *side.input.molecule,
+                      to_common,
+                      side.surface.atoms,
                       isovalue,
                       options.surface.radius_scale,
-                      side.potential};
+                      side.map.map};
   };
-  const FieldPlace on_source = place(source, step.mapping.source);
-  FieldPlace on_target = place(target, step.mapping.mapped);
-  on_target.left_out = result.surface.unmatched;
+  const FieldPlace on_source = place(source, step.mapping.source, step.frame.from_source);
+  FieldPlace on_target = place(target, step.mapping.mapped, step.frame.from_target);
+  on_target.left_out = surface.unmatched;
   for (std::size_t f = 0; f < fields.size(); ++f) {
     FieldResult field;
     field.quantity = fields[f].quantity;
@@ -130,7 +183,7 @@ ComparedFields compare_fields(Engine& engine, const std::vector<Field>& fields, 
       of_part.metrics_all = comparison.metrics(larger_of(part.place.outside, step.mapping.unmatched));
       part.result.fields.push_back(std::move(of_part));
     }
-    field.residues = means_of(field, result.surface, result.residues.size());
+    field.residues = means_of(field, surface, source.input.molecule->residues.size());
     for (const StateField* of_state : {&source.fields[f], &target.fields[f]}) {
       field.files.insert(field.files.end(), of_state->files.begin(), of_state->files.end());
       for (const std::string& note : of_state->notes)
@@ -139,7 +192,16 @@ ComparedFields compare_fields(Engine& engine, const std::vector<Field>& fields, 
     if (!(field.metrics_all.area_A2 > 0)) compared.warnings.push_back({without_values(field), false});
     compared.fields.push_back(std::move(field));
   }
+  find_patches(options, surface, unit, compared);
   return compared;
+}
+
+void refuse_patches_of_potential(const CompareOptions& options) {
+  for (const PatchesRequest& request : options.patches_of) {
+    if (request.field == "potential")
+      throw InputError(option("patches-of", to_string(request)) +
+                       ": these states have no potential; give charges or maps, or another field");
+  }
 }
 
 }  // namespace espdiff
