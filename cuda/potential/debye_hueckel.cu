@@ -9,9 +9,6 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Distance between evaluations of the sum. Far from atoms it varies over many Angstrom.
-constexpr double kBorderSpacing_A = 2.5;
-
 /// Charges for the sum: strength = scale q exp(kappa a) / (1 + kappa a).
 struct BorderCharges {
   const float* x;
@@ -186,8 +183,8 @@ Face face_of(const CubicLattice& lattice, int axis, bool upper, int stride) {
   return face;
 }
 
-int stride_of(const CubicLattice& lattice) {
-  return std::max(1, static_cast<int>(std::lround(kBorderSpacing_A / static_cast<double>(lattice.spacing))));
+int stride_of(const CubicLattice& lattice, const DebyeHueckel& law) {
+  return std::max(1, static_cast<int>(std::lround(law.every_A / static_cast<double>(lattice.spacing))));
 }
 
 /// Point charges on the device, padded to whole lanes.
@@ -271,7 +268,7 @@ void set_debye_hueckel_border(const std::vector<PbAtom>& atoms, const CubicLatti
     strengths.push_back(static_cast<float>(static_cast<double>(atom.charge) * unit_strength(atom, law)));
   }
   const ChargeArrays charges(places, std::move(strengths));
-  const int stride = stride_of(lattice);
+  const int stride = stride_of(lattice, law);
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool upper : {false, true})
       set_face(face_of(lattice, axis, upper, stride), charges.view(law), stride, phi);
@@ -282,7 +279,7 @@ std::vector<double> debye_hueckel_transposed(const std::vector<PbAtom>& atoms, c
                                              const DebyeHueckel& law, Buffer<float>& gradient) {
   std::vector<Vec3f> places;
   std::vector<float> strengths;
-  const int stride = stride_of(lattice);
+  const int stride = stride_of(lattice, law);
   // A point of two faces has the value of the last one that was set.
   for (int axis = 2; axis >= 0; --axis) {
     for (const bool upper : {true, false})

@@ -57,7 +57,7 @@ SolverReport conjugate_gradients(const GridOperator& a, Multigrid& preconditione
   for (int restart = 0;; ++restart) {
     report.relative_residual = true_residual();
     if (restart == 0) report.start_residual = report.relative_residual;
-    if (restart == 0 && report.relative_residual > 1) {  // worse than zero
+    if (restart == 0 && report.relative_residual > 1 && !options.keeps_start) {  // worse than zero
       clear_inner(a.size, x);
       report.relative_residual = true_residual();
     }

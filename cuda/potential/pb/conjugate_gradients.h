@@ -13,6 +13,7 @@ struct SolverOptions {
   double tolerance = 1e-6;  ///< of the error at the surface, where one is given; otherwise of |b - A x| / norm
   double norm = 1;          ///< residuals are relative to it
   int max_cycles = 100;
+  bool keeps_start = false;  ///< the start stays also where its residual is above that of zero
 };
 
 struct SolverReport {
@@ -26,7 +27,7 @@ struct SolverReport {
 /// The solver's arrays beside x; [point] each, zero on the border.
 struct SolverWork {
   explicit SolverWork(std::size_t n_points) : SolverWork(n_points, {}) {}
-  /// In the memory of arrays that are not needed any more, such as those of hold_packed().
+  /// In the memory of arrays that are not needed any more, such as those of spare_arrays().
   SolverWork(std::size_t n_points, CoefficientBuffers&& spare)
       : r(std::move(spare.ex)), p(std::move(spare.ey)), z(std::move(spare.ez)) {
     for (Buffer<float>* values : {&r, &p, &z}) values->assign(n_points, 0.0F);

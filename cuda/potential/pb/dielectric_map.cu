@@ -84,7 +84,7 @@ ESPDIFF_MULTIVERSION void set_edges(const EdgeDielectric& dielectric, const floa
 
 void fill_by_edges(const SoluteShape& shape, const CubicLattice& lattice, const PoissonBoltzmannOptions& options,
                    GridOperator& on_grid) {
-  Buffer<float> depths;
+  Buffer<float>& depths = on_grid.diagonal;  // until k takes its place
   shape.depths(lattice, depths);
   const EdgeDielectric dielectric{static_cast<float>(1 / options.solute_dielectric),
                                   static_cast<float>(1 / options.solvent_dielectric)};
@@ -182,10 +182,8 @@ void fill_operator(const std::vector<PbAtom>& atoms, const CubicLattice& lattice
   if (stern_k > 0) {
     std::vector<PbAtom> enlarged = atoms;
     for (PbAtom& atom : enlarged) atom.radius += static_cast<float>(options.ion_radius_A);
-    Buffer<float> depths;
-    SoluteShape(enlarged, 0.0F).depths(lattice, depths);
-    const float* const depth = raw(depths);
-    for_each_index(n, [=] ESPDIFF_HD(std::size_t p) { k[p] = depth[p] > 0.0F ? 0.0F : stern_k; });
+    SoluteShape(enlarged, 0.0F).depths(lattice, on_grid.diagonal);
+    for_each_index(n, [=] ESPDIFF_HD(std::size_t p) { k[p] = k[p] > 0.0F ? 0.0F : stern_k; });
   } else {
     for_each_index(n, [=] ESPDIFF_HD(std::size_t p) { k[p] = 0.0F; });
   }

@@ -56,10 +56,10 @@ struct TransposedProblem {
                        on_grid_);
       packed = PackedOperator::pack(on_grid_, usual_coefficients(lattice_, constants_, origin.pb));
     }
-    add_faces_to_diagonal(on_grid_);
+    add_faces_to_diagonal(on_grid_, packed);
     multigrid_ = std::make_unique<Multigrid>(on_grid_);
     find_border_faces();
-    work_ = std::make_unique<SolverWork>(lattice.n_points(), hold_packed(on_grid_, packed));
+    work_ = std::make_unique<SolverWork>(lattice.n_points(), spare_arrays(on_grid_));
     place_charges();
   }
 

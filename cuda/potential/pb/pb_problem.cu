@@ -34,7 +34,10 @@ PbConstants pb_constants(const PoissonBoltzmannOptions& o) {
 }
 
 DebyeHueckel border_law(const PbConstants& constants, const PoissonBoltzmannOptions& options) {
-  return {constants.coulomb / options.solvent_dielectric, constants.kappa};
+  DebyeHueckel law{constants.coulomb / options.solvent_dielectric, constants.kappa};
+  // At 20 A from atoms the sum varies over twice the distance.
+  if (options.far_boundary == FarBoundary::kFocus) law.every_A = 5;
+  return law;
 }
 
 std::vector<PbAtom> sorted_atoms(const std::vector<Vec3d>& positions, const std::vector<float>& radii,

@@ -1,5 +1,8 @@
 // grid_transfer.cu: restriction, interpolation, and the coarse grid's coefficients.
-#include "cuda/potential/pb/multigrid/multigrid.h"
+#include <algorithm>
+#include <vector>
+
+#include "cuda/potential/pb/multigrid/packed_operator.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -31,6 +34,45 @@ ESPDIFF_INLINE float coarse_face(const float* e, const GridSize& fine, int axis,
   }
   return weights > 0 ? sum / weights : 1.0F;
 }
+
+/// The sum of a point's six faces, in the order of add_faces_to_diagonal().
+struct FacesOf {
+  const float *ex, *ey, *ez;
+  std::size_t row, plane;
+
+  ESPDIFF_INLINE float operator()(std::size_t p) const {
+    return (ex[p] + ex[p - 1]) + (ey[p] + ey[p - row]) + (ez[p] + ez[p - plane]);
+  }
+};
+FacesOf faces_of(const GridOperator& a) { return {raw(a.ex), raw(a.ey), raw(a.ez), a.size.row(), a.size.plane()}; }
+
+/// k is the diagonal minus the faces; it quadruples with the doubled spacing.
+ESPDIFF_INLINE float coarse_k(float diagonal, float faces) { return 4.0F * larger(diagonal - faces, 0.0F); }
+
+#if !defined(ESPDIFF_BACKEND_CUDA)
+/// The coarse k from the fine grid's packed k.
+void coarsen_packed_k(const GridOperator& fine, GridOperator& coarse) {
+  const GridSize f = fine.size, c = coarse.size;
+  const PackedView packed = fine.packed->view();
+  const FacesOf faces_at = faces_of(fine);
+  float* const out = raw(coarse.diagonal);
+  for_each_index(static_cast<std::size_t>(c.nz), [=](std::size_t plane) {
+    const int k = static_cast<int>(plane);
+    std::fill_n(out + c.index(0, 0, k), c.plane(), 0.0F);
+    if (k == 0 || 2 * k >= f.nz - 1) return;
+    for (int j = 1; 2 * j < f.ny - 1; ++j) {
+      const CodeRun* run = packed.runs + packed.first_run[f.index(0, 2 * j, 2 * k) / f.row()];
+      int end = run->n_points;
+      for (int i = 1; 2 * i < f.nx - 1; ++i) {
+        while (2 * i >= end) end += (++run)->n_points;
+        const float faces = faces_at(f.index(2 * i, 2 * j, 2 * k));
+        const float own = (run->code & PackedView::kIonsBit) != 0 ? packed.usual.ions : 0.0F;
+        out[c.index(i, j, k)] = coarse_k(own + faces, faces);
+      }
+    }
+  });
+}
+#endif
 
 }  // namespace
 
@@ -93,6 +135,12 @@ void add_interpolated(const GridSize& coarse, const Buffer<float>& correction, c
 #endif
 }
 
+float coarse_face_of_equal(float dielectric) {
+  const GridSize size{5, 5, 5};
+  const std::vector<float> faces(size.points(), dielectric);
+  return coarse_face(faces.data(), size, 0, 1, 1, 1);
+}
+
 void coarsen(const GridOperator& fine, GridOperator& coarse) {
   const GridSize f = fine.size;
   const GridSize c{coarser(f.nx), coarser(f.ny), coarser(f.nz)};
@@ -101,27 +149,26 @@ void coarsen(const GridOperator& fine, GridOperator& coarse) {
   const float* const fx = raw(fine.ex);
   const float* const fy = raw(fine.ey);
   const float* const fz = raw(fine.ez);
-  const float* const of_points = raw(fine.diagonal);
   float* const ex = raw(coarse.ex);
   float* const ey = raw(coarse.ey);
   float* const ez = raw(coarse.ez);
   float* const diagonal = raw(coarse.diagonal);
+  const float* const of_points = fine.packed == nullptr ? raw(fine.diagonal) : nullptr;
+  const FacesOf faces_at = faces_of(fine);
   for_each_index(c.points(), [=] ESPDIFF_HD(std::size_t p) {
     const int i = static_cast<int>(p % c.row()), j = static_cast<int>(p / c.row() % static_cast<std::size_t>(c.ny)),
               k = static_cast<int>(p / c.plane());
     ex[p] = coarse_face(fx, f, 0, i, j, k);
     ey[p] = coarse_face(fy, f, 1, i, j, k);
     ez[p] = coarse_face(fz, f, 2, i, j, k);
-    // k is the diagonal minus the faces; it quadruples with the doubled spacing.
-    float ions = 0;
+    if (of_points == nullptr) return;
+    const std::size_t q = f.index(2 * i, 2 * j, 2 * k);
     const bool is_inner = i > 0 && j > 0 && k > 0 && 2 * i < f.nx - 1 && 2 * j < f.ny - 1 && 2 * k < f.nz - 1;
-    if (is_inner) {
-      const std::size_t q = f.index(2 * i, 2 * j, 2 * k);
-      const float faces = (fx[q] + fx[q - 1]) + (fy[q] + fy[q - f.row()]) + (fz[q] + fz[q - f.plane()]);
-      ions = 4.0F * larger(of_points[q] - faces, 0.0F);
-    }
-    diagonal[p] = ions;
+    diagonal[p] = is_inner ? coarse_k(of_points[q], faces_at(q)) : 0.0F;
   });
+#if !defined(ESPDIFF_BACKEND_CUDA)
+  if (of_points == nullptr) coarsen_packed_k(fine, coarse);
+#endif
   add_faces_to_diagonal(coarse);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cuda/potential/pb/multigrid/packed_operator.h"
 #include "cuda/potential/pb/multigrid/plane_sweeps.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -165,7 +166,18 @@ double dot_product(const Buffer<float>& a, const Buffer<float>& b) {
       .total();
 }
 
-void add_faces_to_diagonal(GridOperator& a) { run_on_grid(a.size, AddFaces{0, view_of(a), raw(a.diagonal)}); }
+void add_faces_to_diagonal(GridOperator& a, std::shared_ptr<const PackedOperator> packed) {
+#if !defined(ESPDIFF_BACKEND_CUDA)
+  if (packed != nullptr) {
+    a.packed = std::move(packed);
+    a.diagonal = Buffer<float>();
+    return;
+  }
+#else
+  (void)packed;
+#endif
+  run_on_grid(a.size, AddFaces{0, view_of(a), raw(a.diagonal)});
+}
 void apply_operator(const GridOperator& a, const Buffer<float>& x, Buffer<float>& y, Products products) {
   if (products == Products::kExact)
     run_on_grid(a.size, Apply<double>{0, view_of(a), raw(x), raw(y)});
@@ -183,16 +195,9 @@ void subtract_exactly(const GridOperator& a, const Buffer<float>& x, const Buffe
   }
 }
 
-CoefficientBuffers hold_packed(GridOperator& a, std::shared_ptr<const PackedOperator> packed) {
+CoefficientBuffers spare_arrays(GridOperator& a) {
   CoefficientBuffers given;
-#if !defined(ESPDIFF_BACKEND_CUDA)
-  if (packed != nullptr) {
-    std::swap(given, static_cast<CoefficientBuffers&>(a));
-    a.packed = std::move(packed);
-  }
-#else
-  (void)a, (void)packed;
-#endif
+  if (a.packed != nullptr) std::swap(given, static_cast<CoefficientBuffers&>(a));
   return given;
 }
 
@@ -216,13 +221,36 @@ Multigrid::Multigrid(const GridOperator& finest) : finest_(finest) {
     levels_.emplace_back();
     Level& level = levels_.back();
     coarsen(*last, level.on_grid);
-    for (Buffer<float>* buffer : {&level.x, &level.b}) buffer->assign(level.on_grid.size.points(), 0.0F);
     last = &level.on_grid;
+  }
+#if !defined(ESPDIFF_BACKEND_CUDA)
+  pack_coarse_faces();
+#endif
+  for (Level& level : levels_) {
+    for (Buffer<float>* buffer : {&level.x, &level.b}) buffer->assign(level.on_grid.size.points(), 0.0F);
   }
 #if !defined(ESPDIFF_BACKEND_CUDA)
   sweeps_ = std::make_unique<PlaneSweeps>(finest.size);
 #endif
 }
+
+#if !defined(ESPDIFF_BACKEND_CUDA)
+void Multigrid::pack_coarse_faces() {
+  if (finest_.packed == nullptr) return;
+  UsualCoefficients usual = finest_.packed->view().usual;
+  for (Level& level : levels_) {
+    // Smaller arrays stay in the caches, where reading them takes less time than unpacking.
+    constexpr std::size_t kFewestPoints = std::size_t{1} << 20;
+    GridOperator& a = level.on_grid;
+    if (a.size.points() < kFewestPoints) return;
+    usual.solute = coarse_face_of_equal(usual.solute);
+    usual.solvent = coarse_face_of_equal(usual.solvent);
+    a.packed = PackedOperator::pack(a, usual);
+    if (a.packed == nullptr) return;
+    for (Buffer<float>* faces : {&a.ex, &a.ey, &a.ez}) *faces = Buffer<float>();
+  }
+}
+#endif
 
 Multigrid::~Multigrid() = default;
 

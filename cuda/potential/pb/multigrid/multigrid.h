@@ -34,17 +34,16 @@ struct CoefficientBuffers {
 /// The operator on one grid.
 struct GridOperator : CoefficientBuffers {
   GridSize size;
-  /// Instead of the arrays, which are empty then; see hold_packed().
+  /// Instead of arrays: of the finest grid's four, or of a coarse grid's faces.
   std::shared_ptr<const PackedOperator> packed;
 };
 
-/// Gives up the arrays of a grid whose coefficients are packed as well, for other uses of their memory. Only for the
-/// finest grid, after the coarse ones are made. On a device, where kernels read arrays, or if there are no packed ones,
-/// they stay, and what returns is empty.
-CoefficientBuffers hold_packed(GridOperator& on_grid, std::shared_ptr<const PackedOperator> packed);
-
-/// Adds the six faces' dielectrics to the diagonal, which is k before.
-void add_faces_to_diagonal(GridOperator& on_grid);
+/// Adds the six faces' dielectrics to the diagonal, which is k before. With packed coefficients, which need no
+/// diagonal, it gives that one up instead and holds them. On a device, where kernels read arrays, they are not held.
+void add_faces_to_diagonal(GridOperator& on_grid, std::shared_ptr<const PackedOperator> packed = nullptr);
+/// Gives up the arrays of a grid that holds packed coefficients, for other uses of their memory. Only after the coarse
+/// grids are made. Without packed ones the arrays stay, and what returns is empty.
+CoefficientBuffers spare_arrays(GridOperator& on_grid);
 /// y = A x at inner points, from x with its border. The border of y is not changed.
 void apply_operator(const GridOperator& on_grid, const Buffer<float>& x, Buffer<float>& y,
                     Products products = Products::kRounded);
@@ -69,8 +68,10 @@ ESPDIFF_INLINE float along_weighted(float before, float here, float after) {
 
 // Between a grid and the next coarser one (grid_transfer.cu).
 
-/// The coarse grid's size and coefficients, from the fine grid's arrays.
+/// The coarse grid's size and coefficients, from the fine grid's faces, and its diagonal or packed k.
 void coarsen(const GridOperator& fine, GridOperator& coarse);
+/// The coarse face of fine ones that all have one dielectric, rounded as coarsen() rounds it.
+float coarse_face_of_equal(float dielectric);
 /// b of the coarse grid, the restricted residual.
 void restrict_to(const GridSize& fine, const Buffer<float>& r, const GridSize& coarse, Buffer<float>& b);
 /// x += trilinear interpolation of the coarse grid's.
@@ -80,7 +81,7 @@ class PlaneSweeps;
 
 class Multigrid {
  public:
-  /// @param finest must outlive this object
+  /// @param finest with the arrays of its faces; must outlive this object
   explicit Multigrid(const GridOperator& finest);
   ~Multigrid();
   /// z = B r with a symmetric B that approximates the inverse of A. @returns r . z
@@ -106,6 +107,7 @@ class Multigrid {
   std::vector<Level> levels_;
   Buffer<float> residual_;  ///< of the finest grid, as Level::r
 #if !defined(ESPDIFF_BACKEND_CUDA)
+  void pack_coarse_faces();
   double cycle_by_planes(std::size_t depth, const GridOperator& a, const Buffer<float>& b, Buffer<float>& x);
   std::unique_ptr<PlaneSweeps> sweeps_;
 #endif

@@ -43,7 +43,7 @@ OperatorRows::OperatorRows(const GridOperator& of, Buffer<float>& storage)
 }
 
 const float* OperatorRows::plane_of(Array array, int k) const {
-  if (of_.packed != nullptr)
+  if (of_.packed != nullptr && (array != kDiagonal || of_.diagonal.empty()))
     return raw(storage_) + of_.size.plane() * static_cast<std::size_t>(kArrays * (k % kPlanes) + array);
   const Buffer<float>* const arrays[kArrays] = {&of_.ex, &of_.ey, &of_.ez, &of_.diagonal};
   return raw(*arrays[array]) + of_.size.index(0, 0, k);
@@ -67,7 +67,7 @@ void OperatorRows::hold(int k) {
     unpack_faces(k - 1);
   }
   unpack_faces(k);
-  unpack_diagonal(k);
+  if (of_.diagonal.empty()) unpack_diagonal(k);
   last_ = k;
   first_ = std::max(first_, k + 1 - kPlanes);
 }
