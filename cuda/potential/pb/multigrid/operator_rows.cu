@@ -36,8 +36,15 @@ ESPDIFF_MULTIVERSION void diagonal_of(const std::uint8_t* codes, float ions, con
 
 }  // namespace
 
-OperatorRows::OperatorRows(const GridOperator& of, Buffer<float>& storage)
+OperatorRows::OperatorRows(const GridOperator& of, Buffer<float>& storage, PlainRows plain)
     : of_(of), storage_(storage), codes_(of.size.row()) {
+  if (of.packed != nullptr && plain == PlainRows::kLeftOut) {
+    const PackedView packed = of.packed->view();
+    plain_ = packed.plain;
+    const float e = packed.usual.solvent, faces = (e + e) + (e + e) + (e + e);
+    for (const int has_ions : {0, 1})
+      plain_diagonal_[has_ions].assign(of.size.row(), (has_ions != 0 ? packed.usual.ions : 0.0F) + faces);
+  }
   const std::size_t needed = of.packed == nullptr ? 0 : of.size.plane() * kPlanes * kArrays;
   if (storage.size() < needed) storage.assign(needed, 0.0F);
 }
@@ -55,9 +62,16 @@ float* OperatorRows::unpacked(Array array, int k) {
 
 OperatorRow OperatorRows::at(int j, int k) const {
   const std::size_t row = of_.size.row(), first = row * static_cast<std::size_t>(j);
+  const std::uint8_t plain =
+      plain_of(static_cast<std::size_t>(j) + static_cast<std::size_t>(of_.size.ny) * static_cast<std::size_t>(k));
+  if (plain != kNotPlain) {
+    const float* const diagonal =
+        of_.diagonal.empty() ? plain_diagonal_[plain == kWithIons ? 1 : 0].data() : plane_of(kDiagonal, k) + first;
+    return {nullptr, nullptr, nullptr, nullptr, nullptr, diagonal, of_.packed->view().usual.solvent};
+  }
   const float* const ey = plane_of(kY, k) + first;
-  return {plane_of(kX, k) + first,       ey, ey - row, plane_of(kZ, k) + first, plane_of(kZ, k - 1) + first,
-          plane_of(kDiagonal, k) + first};
+  return {plane_of(kX, k) + first,        ey,  ey - row, plane_of(kZ, k) + first, plane_of(kZ, k - 1) + first,
+          plane_of(kDiagonal, k) + first, 0.0F};
 }
 
 void OperatorRows::hold(int k) {
@@ -86,6 +100,8 @@ void OperatorRows::unpack_faces(int k) {
   float* const faces[3] = {unpacked(kX, k), unpacked(kY, k), unpacked(kZ, k)};
   for (std::size_t j = 0; j < ny; ++j) {
     const std::size_t row = j + ny * static_cast<std::size_t>(k), first = n * j;
+    // Faces belong to the next rows' points as well.
+    if (plain_of(row) != kNotPlain && plain_of(row + 1) != kNotPlain && plain_of(row + ny) != kNotPlain) continue;
     usual_faces(codes_of(row), packed.usual.solvent, packed.usual.solute, n, faces[0] + first, faces[1] + first,
                 faces[2] + first);
     for (std::uint32_t listed = packed.first_face[row]; listed < packed.first_face[row + 1]; ++listed) {
@@ -98,9 +114,11 @@ void OperatorRows::unpack_faces(int k) {
 void OperatorRows::unpack_diagonal(int k) {
   const float ions = of_.packed->view().usual.ions;
   const std::size_t n = of_.size.row(), ny = static_cast<std::size_t>(of_.size.ny);
-  for (std::size_t j = 1; j < ny - 1; ++j)
-    diagonal_of(codes_of(j + ny * static_cast<std::size_t>(k)), ions, at(static_cast<int>(j), k), n,
-                unpacked(kDiagonal, k) + n * j);
+  for (std::size_t j = 1; j < ny - 1; ++j) {
+    const std::size_t row = j + ny * static_cast<std::size_t>(k);
+    if (plain_of(row) == kNotPlain)
+      diagonal_of(codes_of(row), ions, at(static_cast<int>(j), k), n, unpacked(kDiagonal, k) + n * j);
+  }
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -20,14 +20,18 @@ struct OperatorRow {
   const float* ez;
   const float* ez_below;  ///< of the row below, z - 1
   const float* diagonal;  ///< of the inner points
+  float plain;            ///< the dielectric of all faces of a plain row, whose other arrays are null; otherwise 0
 };
+
+/// Whether rows that are plain are unpacked as well.
+enum class PlainRows { kUnpacked, kLeftOut };
 
 /// Gives the rows of one operator, plane after plane. Not for several threads at once: each has its own.
 class OperatorRows {
  public:
   /// @param of must outlive this object
   /// @param storage for unpacked planes; kept for the next one, so that each pass need not allocate
-  OperatorRows(const GridOperator& of, Buffer<float>& storage);
+  OperatorRows(const GridOperator& of, Buffer<float>& storage, PlainRows plain);
   /// Makes the rows of an inner plane and of the three before it available.
   void hold(int k);
   /// An inner row of a plane that is held.
@@ -36,6 +40,8 @@ class OperatorRows {
  private:
   enum Array { kX, kY, kZ, kDiagonal, kArrays };
   static constexpr int kPlanes = 4;
+  /// One of PlainRow.
+  std::uint8_t plain_of(std::size_t row) const { return plain_ == nullptr ? std::uint8_t{kNotPlain} : plain_[row]; }
   const float* plane_of(Array array, int k) const;
   float* unpacked(Array array, int k);
   const std::uint8_t* codes_of(std::size_t row);
@@ -44,8 +50,10 @@ class OperatorRows {
 
   const GridOperator& of_;
   Buffer<float>& storage_;
-  std::vector<std::uint8_t> codes_;  ///< [point] of one row
-  int first_ = 0, last_ = -1;        ///< planes whose faces are unpacked
+  const std::uint8_t* plain_ = nullptr;   ///< [row] that are left out; null for none
+  std::vector<float> plain_diagonal_[2];  ///< [point] of a row without ions and with them
+  std::vector<std::uint8_t> codes_;       ///< [point] of one row
+  int first_ = 0, last_ = -1;             ///< planes whose faces are unpacked
 };
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -36,12 +36,17 @@ struct CodeRun {
   static constexpr unsigned kMostPoints = 255;
 };
 
+/// Whether the six faces of all points of a row have the solvent's dielectric, and whether ions are all along it or
+/// nowhere. More than half of the rows around a protein are plain.
+enum PlainRow : std::uint8_t { kNotPlain, kWithoutIons, kWithIons };
+
 /// Packed coefficients, for kernels. A row of points along x is numbered y + ny z.
 struct PackedView {
   const std::uint32_t* first_run;   ///< [row + 1] of `runs`
   const CodeRun* runs;              ///< in the order of points
   const std::uint32_t* first_face;  ///< [row + 1] of `listed`
   const ListedFace* listed;         ///< in the order of points, then of x, y, z
+  const std::uint8_t* plain;        ///< [row] see PlainRow
   UsualCoefficients usual;
 
   static constexpr unsigned kIonsBit = 8;
@@ -54,14 +59,17 @@ class PackedOperator {
   static std::shared_ptr<const PackedOperator> pack(const GridOperator& on_grid, const UsualCoefficients& usual);
   /// Fills in the coefficients, bit by bit those that were packed; the diagonal holds k alone.
   void unpack(GridOperator& on_grid) const;
-  PackedView view() const { return {raw(first_run_), raw(runs_), raw(first_face_), raw(listed_), usual_}; }
+  PackedView view() const { return {raw(first_run_), raw(runs_), raw(first_face_), raw(listed_), raw(plain_), usual_}; }
 
  private:
+  void find_plain_rows();
+
   GridSize size_;
   UsualCoefficients usual_;
   Buffer<std::uint32_t> first_run_, first_face_;
   Buffer<CodeRun> runs_;
   Buffer<ListedFace> listed_;
+  Buffer<std::uint8_t> plain_;
 };
 
 }  // namespace espdiff::ESPDIFF_BACKEND

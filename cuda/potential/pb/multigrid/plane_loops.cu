@@ -29,15 +29,33 @@ struct RowNeighbours {
   }
 };
 
+/// The same for a plain row, whose faces all have one dielectric: the same products, without reading it for each.
+struct PlainNeighbours {
+  float e;
+  const float *below, *here, *above;
+  std::size_t row;
+
+  ESPDIFF_INLINE PlainNeighbours(const OperatorRow& a, const Planes& x, std::size_t of_row)
+      : e(a.plain), below(x.below), here(x.here), above(x.above), row(of_row) {}
+  static ESPDIFF_INLINE float product(float a, float b) { return a * b; }
+  ESPDIFF_INLINE float operator()(std::size_t i) const {
+    const float along_x = e * here[i + 1] + e * here[i - 1];
+    const float along_y = e * here[i + row] + e * *(here + i - row);
+    const float along_z = e * above[i] + e * below[i];
+    return along_x + along_y + along_z;
+  }
+};
+
 ESPDIFF_MULTIVERSION void start_row(const float* diagonal, std::size_t nx, int parity, const float* b, float* x) {
   const int odd = parity;
 #pragma GCC ivdep
   for (std::size_t i = 1; i < nx - 1; ++i) x[i] = ((static_cast<int>(i) + odd) & 1) == 0 ? b[i] / diagonal[i] : 0.0F;
 }
 
-ESPDIFF_MULTIVERSION void sweep_row(const OperatorRow& a, std::size_t nx, int parity, int colour, const float* b,
-                                    const Planes& x, float* out) {
-  const RowNeighbours<float> neighbours(a, x, nx);
+template <typename Neighbours>
+ESPDIFF_INLINE void sweep(const OperatorRow& a, std::size_t nx, int parity, int colour, const float* b, const Planes& x,
+                          float* out) {
+  const Neighbours neighbours(a, x, nx);
   const float* const diagonal = a.diagonal;
   const float* const here = x.here;
 #pragma GCC ivdep
@@ -47,15 +65,30 @@ ESPDIFF_MULTIVERSION void sweep_row(const OperatorRow& a, std::size_t nx, int pa
   }
 }
 
-ESPDIFF_MULTIVERSION void residual_row(const OperatorRow& a, std::size_t nx, int parity, const Planes& x, float* r) {
-  const RowNeighbours<float> neighbours(a, x, nx);
+ESPDIFF_MULTIVERSION void sweep_row(const OperatorRow& a, std::size_t nx, int parity, int colour, const float* b,
+                                    const Planes& x, float* out) {
+  if (a.plain > 0)
+    sweep<PlainNeighbours>(a, nx, parity, colour, b, x, out);
+  else
+    sweep<RowNeighbours<float>>(a, nx, parity, colour, b, x, out);
+}
+
+template <typename Neighbours>
+ESPDIFF_INLINE void red_residual(const OperatorRow& a, std::size_t nx, int parity, const Planes& x, float* r) {
+  const Neighbours neighbours(a, x, nx);
 #pragma GCC ivdep
   for (std::size_t i = 1; i < nx - 1; ++i) r[i] = ((static_cast<int>(i) + parity) & 1) == 0 ? neighbours(i) : 0.0F;
 }
+ESPDIFF_MULTIVERSION void residual_row(const OperatorRow& a, std::size_t nx, int parity, const Planes& x, float* r) {
+  if (a.plain > 0)
+    red_residual<PlainNeighbours>(a, nx, parity, x, r);
+  else
+    red_residual<RowNeighbours<float>>(a, nx, parity, x, r);
+}
 
-template <typename Sum>
+template <typename Neighbours>
 ESPDIFF_INLINE void multiply_row(const OperatorRow& a, std::size_t nx, const Planes& x, float* y) {
-  const RowNeighbours<Sum> neighbours(a, x, nx);
+  const Neighbours neighbours(a, x, nx);
   const float* const diagonal = a.diagonal;
   const float* const here = x.here;
 #pragma GCC ivdep
@@ -63,10 +96,13 @@ ESPDIFF_INLINE void multiply_row(const OperatorRow& a, std::size_t nx, const Pla
     y[i] = static_cast<float>(neighbours.product(diagonal[i], here[i]) - neighbours(i));
 }
 ESPDIFF_MULTIVERSION void apply_row(const OperatorRow& a, std::size_t nx, const Planes& x, float* y) {
-  multiply_row<float>(a, nx, x, y);
+  if (a.plain > 0)
+    multiply_row<PlainNeighbours>(a, nx, x, y);
+  else
+    multiply_row<RowNeighbours<float>>(a, nx, x, y);
 }
 ESPDIFF_MULTIVERSION void apply_row_exactly(const OperatorRow& a, std::size_t nx, const Planes& x, float* y) {
-  multiply_row<double>(a, nx, x, y);
+  multiply_row<RowNeighbours<double>>(a, nx, x, y);
 }
 
 /// The terms of A x in double precision, for x in one or two parts.

@@ -64,7 +64,7 @@ void PlaneSweeps::smooth_and_restrict(const GridOperator& a, const Buffer<float>
   float* const restricted = raw(coarse_b);
   for_each_index(static_cast<std::size_t>(n), [&, n](std::size_t range) {
     Own& own = own_[range];
-    OperatorRows rows(a, own.coefficients);
+    OperatorRows rows(a, own.coefficients, PlainRows::kLeftOut);
     // Border rows of these planes stay zero, whatever the level's size.
     for (auto* planes : {&own.x, &own.black, &own.r}) {
       for (Buffer<float>& buffer : *planes) clear_border(size, raw(buffer));
@@ -119,7 +119,7 @@ double PlaneSweeps::correct_and_smooth(const GridOperator& a, const Buffer<float
   std::vector<double> products(static_cast<std::size_t>(size.nz), 0.0);
   for_each_index(static_cast<std::size_t>(n), [&](std::size_t range) {
     Own& own = own_[range];
-    OperatorRows rows(a, own.coefficients);
+    OperatorRows rows(a, own.coefficients, PlainRows::kLeftOut);
     for (auto* planes : {&own.x, &own.black}) {
       for (Buffer<float>& buffer : *planes) clear_border(size, raw(buffer));
     }
@@ -166,7 +166,7 @@ double PlaneSweeps::turn_and_apply(const GridOperator& a, float beta, Products f
   std::vector<double> products(static_cast<std::size_t>(size.nz), 0.0);
   for_each_index(static_cast<std::size_t>(n), [&](std::size_t range) {
     Own& own = own_[range];
-    OperatorRows rows(a, own.coefficients);
+    OperatorRows rows(a, own.coefficients, form == Products::kExact ? PlainRows::kUnpacked : PlainRows::kLeftOut);
     const Part part = part_of_range(range);
     const auto p_of = [&](int k) -> const float* {
       if (k < part.first) return raw(own.halo[0]);
@@ -192,7 +192,7 @@ void subtract_exactly_by_rows(const GridOperator& a, const Buffer<float>& x, con
   const int n = n_ranges(a.size);
   for_each_index(static_cast<std::size_t>(n), [&, n](std::size_t range) {
     Buffer<float> coefficients;
-    OperatorRows rows(a, coefficients);
+    OperatorRows rows(a, coefficients, PlainRows::kUnpacked);
     const Part part = part_of(1, a.size.nz - 1, static_cast<int>(range), n);
     for (int k = part.first; k < part.last; ++k) {
       const std::size_t first = plane * static_cast<std::size_t>(k);
