@@ -35,38 +35,6 @@ SortedCharges<double> charges_on_grid(const std::vector<PbAtom>& atoms, const Cu
   return sort_charges<double>(to_device(placed), {lattice.size[0], lattice.size[1], lattice.size[2]}, kCubic);
 }
 
-/// Sets the border of phi to trilinear samples of a wider map.
-void set_border_from(const MapGrid& around, const Lattice& lattice, Buffer<float>& phi) {
-  const int nx = lattice.size[0], ny = lattice.size[1], nz = lattice.size[2];
-  std::vector<std::size_t> border;
-  std::vector<Vec3d> places;  // in the wider map's lattice
-  const auto add = [&](int i, int j, int k) {
-    border.push_back(static_cast<std::size_t>(i) +
-                     static_cast<std::size_t>(nx) *
-                         (static_cast<std::size_t>(j) + static_cast<std::size_t>(ny) * static_cast<std::size_t>(k)));
-    const Vec3d at = lattice.origin +
-                     lattice.step[0].x * Vec3d{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
-    Vec3d place;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double* const row = around.to_index + std::ptrdiff_t{4} * axis;
-      place[axis] = row[0] * at.x + row[1] * at.y + row[2] * at.z + row[3];
-    }
-    places.push_back(place);
-  };
-  for (int k = 0; k < nz; ++k) {
-    for (int j = 0; j < ny; ++j) {
-      const bool whole_row = j == 0 || k == 0 || j == ny - 1 || k == nz - 1;
-      for (int i = 0; i < nx; i += whole_row ? 1 : nx - 1) add(i, j, k);
-    }
-  }
-  const Buffer<std::size_t> points = to_device(border);
-  const Buffer<float> values = to_device(values_at(around, places));
-  const std::size_t* const point = raw(points);
-  const float* const from = raw(values);
-  float* const to = raw(phi);
-  for_each_index(points.size(), [=] ESPDIFF_HD(std::size_t n) { to[point[n]] = from[n]; });
-}
-
 /// Trilinear samples of a map of twice the spacing.
 struct WiderSamples {
   const float* corner;     ///< of the cell that holds the grid's first point
@@ -74,59 +42,67 @@ struct WiderSamples {
   float first[3];          ///< place of the grid's first point in that cell, in cells
 
   ESPDIFF_INLINE float at(int i, int j, int k) const {
-    std::size_t cell[3];
+    int cell[3];
     float part[3];
     const int index[3] = {i, j, k};
     for (int axis = 0; axis < 3; ++axis) {
-      const float place = first[axis] + 0.5F * static_cast<float>(index[axis]);
-      cell[axis] = static_cast<std::size_t>(static_cast<int>(place));
-      part[axis] = place - static_cast<float>(static_cast<int>(place));
+      const float place = first[axis] + ((index[axis] & 1) != 0 ? 0.5F : 0.0F);
+      const int next = place >= 1.0F ? 1 : 0;
+      cell[axis] = index[axis] / 2 + next;
+      part[axis] = place - static_cast<float>(next);
     }
-    const float* const low = corner + cell[0] + row * cell[1] + plane * cell[2];
-    const auto along_x = [&](const float* line)
-                             ESPDIFF_INLINE_LAMBDA { return line[0] + part[0] * (line[1] - line[0]); };
-    const auto along_y = [&](const float* lines) ESPDIFF_INLINE_LAMBDA {
-      const float below = along_x(lines);
-      return below + part[1] * (along_x(lines + row) - below);
-    };
-    const float below = along_y(low);
-    return below + part[2] * (along_y(low + plane) - below);
+    const float* const low = corner + (static_cast<std::size_t>(cell[0]) + row * static_cast<std::size_t>(cell[1]) +
+                                       plane * static_cast<std::size_t>(cell[2]));
+    const float below = between(part[1], along_x(low, part[0]), along_x(low + row, part[0])),
+                above = between(part[1], along_x(low + plane, part[0]), along_x(low + plane + row, part[0]));
+    return between(part[2], below, above);
   }
+  static ESPDIFF_INLINE float between(float part, float a, float b) { return a + part * (b - a); }
+  static ESPDIFF_INLINE float along_x(const float* line, float part) { return between(part, line[0], line[1]); }
 };
 
 #if !defined(__CUDACC__)
 ESPDIFF_MULTIVERSION void fill_from_wider(const WiderSamples& given, int nx, int j, int k, float* out) {
   const WiderSamples wider = given;
 #pragma GCC ivdep
-  for (int i = 1; i < nx - 1; ++i) out[i] = wider.at(i, j, k);
+  for (int i = 0; i < nx; ++i) out[i] = wider.at(i, j, k);
 }
 #endif
 
-/// Sets the inner points of phi to trilinear samples of a wider map of twice the spacing. Its error at the surface is a
-/// few per cent, although that next to charges makes its residual larger than that of zero: three cycles less.
-void start_from_wider(const MapGrid& around, const Lattice& lattice, Buffer<float>& phi) {
+enum class Points { kAll, kBorder };
+
+/// Sets points of phi to samples of a wider map. As a start its error at the surface is a few per cent, although that
+/// next to charges makes its residual larger than that of zero: three cycles less.
+void set_from_wider(const MapGrid& around, const Lattice& lattice, Points points, Buffer<float>& phi) {
   WiderSamples wider{raw(around.values), static_cast<std::size_t>(around.lattice.size[0]), 0, {}};
   wider.plane = wider.row * static_cast<std::size_t>(around.lattice.size[1]);
   const std::size_t strides[3] = {1, wider.row, wider.plane};
   for (int axis = 0; axis < 3; ++axis) {
-    const double place = (lattice.origin[axis] - around.lattice.origin[axis]) / (2 * lattice.step[0].x),
+    const double place = (lattice.origin[axis] - around.lattice.origin[axis]) / around.lattice.step[0].x,
                  cell = std::floor(place);
     wider.corner += static_cast<std::size_t>(cell) * strides[axis];
     wider.first[axis] = static_cast<float>(place - cell);
   }
   const int nx = lattice.size[0], ny = lattice.size[1], nz = lattice.size[2];
-  const std::size_t row = static_cast<std::size_t>(nx), plane = row * static_cast<std::size_t>(ny);
+  const std::size_t row = static_cast<std::size_t>(nx),
+                    n_rows = static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz);
+  const bool is_all = points == Points::kAll;
   float* const out = raw(phi);
 #if defined(__CUDACC__)
-  for_each_index(phi.size(), [=] ESPDIFF_HD(std::size_t p) {
-    const int i = static_cast<int>(p % row), j = static_cast<int>(p % plane / row), k = static_cast<int>(p / plane);
-    if (i > 0 && j > 0 && k > 0 && i < nx - 1 && j < ny - 1 && k < nz - 1) out[p] = wider.at(i, j, k);
+  for_each_index(row * n_rows, [=] ESPDIFF_HD(std::size_t p) {
+    const int i = static_cast<int>(p % row), j = static_cast<int>(p / row % static_cast<std::size_t>(ny)),
+              k = static_cast<int>(p / row / static_cast<std::size_t>(ny));
+    const bool is_inner = i > 0 && j > 0 && k > 0 && i < nx - 1 && j < ny - 1 && k < nz - 1;
+    if (is_all || !is_inner) out[p] = wider.at(i, j, k);
   });
 #else
-  for_each_index(static_cast<std::size_t>(nz - 2), [=](std::size_t inner) {
-    for (int j = 1; j < ny - 1; ++j)
-      fill_from_wider(wider, nx, j, static_cast<int>(inner) + 1,
-                      out + row * static_cast<std::size_t>(j) + plane * (inner + 1));
+  for_each_index(n_rows, [=](std::size_t r) {
+    const int j = static_cast<int>(r % static_cast<std::size_t>(ny)),
+              k = static_cast<int>(r / static_cast<std::size_t>(ny));
+    float* const of_row = out + row * r;
+    if (is_all || j == 0 || k == 0 || j == ny - 1 || k == nz - 1) return fill_from_wider(wider, nx, j, k, of_row);
+    of_row[0] = wider.at(0, j, k);
+    of_row[nx - 1] = wider.at(nx - 1, j, k);
   });
 #endif
 }
@@ -275,8 +251,7 @@ std::shared_ptr<MapGrid> poisson_boltzmann(const std::vector<Vec3d>& positions, 
       set_debye_hueckel_border(atoms, lattice, border_law(problem.constants, options), phi);
       return false;
     }
-    if (!has_earlier) start_from_wider(around, on_lattice, phi);
-    set_border_from(around, on_lattice, phi);
+    set_from_wider(around, on_lattice, has_earlier ? Points::kBorder : Points::kAll, phi);
     around.values = Buffer<float>();
     return !has_earlier;
   };

@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "cuda/potential/pb/conjugate_gradients.h"
@@ -142,18 +143,58 @@ TEST_CASE("a solution that is taken direction by direction has nearly the residu
   CHECK(std::sqrt(dot_product(b, b)) < 8e-8);
 }
 
-TEST_CASE("packed coefficients give the bits of arrays, at any number of threads") {
-  for (const GridSize& size : kSizes) {
-    Random random(11);
-    GridOperator arrays = random_operator(size, random);
-    // k alone, where ions are everywhere or nowhere; one face in thirty is cut by the boundary.
-    for (std::size_t p = 0; p < size.points(); ++p) {
-      raw(arrays.diagonal)[p] = random.uniform(0, 1) < 0.3 ? 0.5F : 0.0F;
-      if (random.uniform(0, 1) < 0.1)
-        raw(p % 3 == 0 ? arrays.ex : p % 3 == 1 ? arrays.ey : arrays.ez)[p] = static_cast<float>(random.uniform(3, 70));
+namespace {
+
+/// Ions everywhere or nowhere; one face in thirty is cut by the boundary. The diagonal holds k alone.
+GridOperator cut_operator(GridSize size, Random& random) {
+  GridOperator a = random_operator(size, random);
+  for (std::size_t p = 0; p < size.points(); ++p) {
+    raw(a.diagonal)[p] = random.uniform(0, 1) < 0.3 ? 0.5F : 0.0F;
+    if (random.uniform(0, 1) < 0.1)
+      raw(p % 3 == 0 ? a.ex : p % 3 == 1 ? a.ey : a.ez)[p] = static_cast<float>(random.uniform(3, 70));
+  }
+  return a;
+}
+
+/// A ball of solute with a Stern layer, in a corner, so that many rows are plain, with ions, without, and with both.
+/// The diagonal holds k alone.
+GridOperator ball_operator(GridSize size) {
+  GridOperator a;
+  a.size = size;
+  for (Buffer<float>* buffer : {&a.ex, &a.ey, &a.ez, &a.diagonal}) buffer->assign(size.points(), 0.0F);
+  const auto distance = [](double i, double j, double k) { return std::hypot(i - 4, j - 4, k - 4); };
+  for (int k = 0; k < size.nz; ++k) {
+    for (int j = 0; j < size.ny; ++j) {
+      for (int i = 0; i < size.nx; ++i) {
+        const std::size_t p = size.index(i, j, k);
+        const auto face = [&](double r) { return r < 2 ? 2.0F : r < 2.4 ? 20.0F : 78.54F; };
+        raw(a.ex)[p] = face(distance(i + 0.5, j, k));
+        raw(a.ey)[p] = face(distance(i, j + 0.5, k));
+        raw(a.ez)[p] = face(distance(i, j, k + 0.5));
+        raw(a.diagonal)[p] = k > size.nz / 2 || distance(i, j, k) < 4 ? 0.0F : 0.5F;
+      }
     }
+  }
+  return a;
+}
+
+bool has_all_kinds_of_rows(const PackedOperator& packed, const GridSize& size) {
+  bool has[3] = {};
+  for (int row = 0; row < size.ny * size.nz; ++row) has[packed.view().plain[row]] = true;
+  return has[kNotPlain] && has[kWithoutIons] && has[kWithIons];
+}
+
+}  // namespace
+
+TEST_CASE("packed coefficients give the bits of arrays, at any number of threads") {
+  for (std::size_t of = 0; of < 2 * std::size(kSizes); ++of) {
+    const GridSize size = kSizes[of / 2];
+    const bool is_ball = of % 2 == 1;
+    Random random(11);
+    GridOperator arrays = is_ball ? ball_operator(size) : cut_operator(size, random);
     const auto packed = espdiff::cpu_backend::PackedOperator::pack(arrays, {2.0F, 78.54F, 0.5F});
     REQUIRE(packed != nullptr);
+    if (is_ball) CHECK(has_all_kinds_of_rows(*packed, size));
     GridOperator again;
     packed->unpack(again);
     CHECK(n_different(again.ex, arrays.ex) + n_different(again.ey, arrays.ey) + n_different(again.ez, arrays.ez) +
@@ -170,7 +211,8 @@ TEST_CASE("packed coefficients give the bits of arrays, at any number of threads
       const Threads threads(n);
       GridOperator a = again;
       add_faces_to_diagonal(a, packed);
-      Multigrid multigrid(a);
+      constexpr std::size_t kAllPacked = 0;
+      Multigrid multigrid(a, kAllPacked);
       spare_arrays(a);
       REQUIRE(a.ex.empty());
       Buffer<float> own_z(size.points(), 0.0F), own_p = r, own_q = low, own_rest = r, own_rest_of_one = r;

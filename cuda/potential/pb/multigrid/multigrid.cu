@@ -213,7 +213,7 @@ void add_parts(Buffer<float>& x, Buffer<float>& low) {
   });
 }
 
-Multigrid::Multigrid(const GridOperator& finest) : finest_(finest) {
+Multigrid::Multigrid(const GridOperator& finest, std::size_t fewest_packed) : finest_(finest) {
   constexpr int kFewest = 7;
   const GridOperator* last = &finest;
   levels_.reserve(16);
@@ -224,7 +224,9 @@ Multigrid::Multigrid(const GridOperator& finest) : finest_(finest) {
     last = &level.on_grid;
   }
 #if !defined(ESPDIFF_BACKEND_CUDA)
-  pack_coarse_faces();
+  pack_coarse_faces(fewest_packed);
+#else
+  (void)fewest_packed;
 #endif
   for (Level& level : levels_) {
     for (Buffer<float>* buffer : {&level.x, &level.b}) buffer->assign(level.on_grid.size.points(), 0.0F);
@@ -235,17 +237,16 @@ Multigrid::Multigrid(const GridOperator& finest) : finest_(finest) {
 }
 
 #if !defined(ESPDIFF_BACKEND_CUDA)
-void Multigrid::pack_coarse_faces() {
+void Multigrid::pack_coarse_faces(std::size_t fewest_points) {
   if (finest_.packed == nullptr) return;
   UsualCoefficients usual = finest_.packed->view().usual;
   for (Level& level : levels_) {
-    // Smaller arrays stay in the caches, where reading them takes less time than unpacking.
-    constexpr std::size_t kFewestPoints = std::size_t{1} << 20;
     GridOperator& a = level.on_grid;
-    if (a.size.points() < kFewestPoints) return;
+    if (a.size.points() < fewest_points) return;
     usual.solute = coarse_face_of_equal(usual.solute);
     usual.solvent = coarse_face_of_equal(usual.solvent);
-    a.packed = PackedOperator::pack(a, usual);
+    constexpr std::size_t kPointsPerListed = 2;  // four bytes a point, where arrays take twelve
+    a.packed = PackedOperator::pack(a, usual, kPointsPerListed);
     if (a.packed == nullptr) return;
     for (Buffer<float>* faces : {&a.ex, &a.ey, &a.ez}) *faces = Buffer<float>();
   }

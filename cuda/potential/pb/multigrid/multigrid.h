@@ -82,7 +82,10 @@ class PlaneSweeps;
 class Multigrid {
  public:
   /// @param finest with the arrays of its faces; must outlive this object
-  explicit Multigrid(const GridOperator& finest);
+  /// @param fewest_packed points of a coarse grid whose faces are packed if the finest grid's coefficients are; arrays
+  /// of
+  ///                      fewer stay in the caches, where reading them takes less time than unpacking (CPU)
+  explicit Multigrid(const GridOperator& finest, std::size_t fewest_packed = std::size_t{1} << 20);
   ~Multigrid();
   /// z = B r with a symmetric B that approximates the inverse of A. @returns r . z
   /// @param r, z zero on the border
@@ -107,7 +110,7 @@ class Multigrid {
   std::vector<Level> levels_;
   Buffer<float> residual_;  ///< of the finest grid, as Level::r
 #if !defined(ESPDIFF_BACKEND_CUDA)
-  void pack_coarse_faces();
+  void pack_coarse_faces(std::size_t fewest_points);
   double cycle_by_planes(std::size_t depth, const GridOperator& a, const Buffer<float>& b, Buffer<float>& x);
   std::unique_ptr<PlaneSweeps> sweeps_;
 #endif

@@ -61,8 +61,8 @@ std::size_t n_rows(const GridSize& size) {
 
 }  // namespace
 
-std::shared_ptr<const PackedOperator> PackedOperator::pack(const GridOperator& on_grid,
-                                                           const UsualCoefficients& usual) {
+std::shared_ptr<const PackedOperator> PackedOperator::pack(const GridOperator& on_grid, const UsualCoefficients& usual,
+                                                           std::size_t points_per_listed) {
   auto packed = std::make_shared<PackedOperator>();
   packed->size_ = on_grid.size;
   packed->usual_ = usual;
@@ -82,8 +82,7 @@ std::shared_ptr<const PackedOperator> PackedOperator::pack(const GridOperator& o
   });
   const std::uint32_t n_runs = exclusive_scan_in_place(packed->first_run_),
                       n_listed = exclusive_scan_in_place(packed->first_face_);
-  constexpr std::size_t kPointsPerListed = 8;  // more would take a byte a point
-  if (std::size_t{n_listed} * kPointsPerListed > on_grid.size.points()) return nullptr;
+  if (std::size_t{n_listed} * points_per_listed > on_grid.size.points()) return nullptr;
   packed->runs_.resize(n_runs);
   packed->listed_.resize(n_listed);
   CodeRun* const runs = raw(packed->runs_);

@@ -55,8 +55,10 @@ struct PackedView {
 class PackedOperator {
  public:
   /// @param on_grid of fill_pb_operator(); its diagonal holds k alone
+  /// @param points_per_listed more than one in so many would not pay: of eight, a byte a point
   /// @returns null where so many faces have other values, as of a smooth dielectric, that packing does not pay
-  static std::shared_ptr<const PackedOperator> pack(const GridOperator& on_grid, const UsualCoefficients& usual);
+  static std::shared_ptr<const PackedOperator> pack(const GridOperator& on_grid, const UsualCoefficients& usual,
+                                                    std::size_t points_per_listed = 8);
   /// Fills in the coefficients, bit by bit those that were packed; the diagonal holds k alone.
   void unpack(GridOperator& on_grid) const;
   PackedView view() const { return {raw(first_run_), raw(runs_), raw(first_face_), raw(listed_), raw(plain_), usual_}; }
