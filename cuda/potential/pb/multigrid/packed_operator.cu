@@ -59,6 +59,27 @@ std::size_t n_rows(const GridSize& size) {
   return static_cast<std::size_t>(size.ny) * static_cast<std::size_t>(size.nz);
 }
 
+/// [row] see PlainRow.
+Buffer<std::uint8_t> plain_rows(const PackedView& packed, const GridSize& size) {
+  const std::size_t rows = n_rows(size), ny = static_cast<std::size_t>(size.ny);
+  Buffer<std::uint8_t> alone(rows), among_others(rows);  // the first: as PlainRow, of the row by itself
+  std::uint8_t* const own = raw(alone);
+  std::uint8_t* const plain = raw(among_others);
+  for_each_index(rows, [=] ESPDIFF_HD(std::size_t r) {
+    const std::uint32_t first = packed.first_run[r];
+    const unsigned code = packed.runs[first].code;
+    bool is_one = (code & ~PackedView::kIonsBit) == 0 && packed.first_face[r] == packed.first_face[r + 1];
+    for (std::uint32_t n = first; n < packed.first_run[r + 1]; ++n) is_one = is_one && packed.runs[n].code == code;
+    own[r] = !is_one ? kNotPlain : code != 0 ? kWithIons : kWithoutIons;
+  });
+  for_each_index(rows, [=] ESPDIFF_HD(std::size_t r) {
+    const bool is_inner = r % ny > 0 && r % ny < ny - 1 && r >= ny && r + ny < rows;
+    const bool is_among_plain = is_inner && own[r - 1] != kNotPlain && own[r - ny] != kNotPlain;
+    plain[r] = is_among_plain ? own[r] : std::uint8_t{kNotPlain};
+  });
+  return among_others;
+}
+
 }  // namespace
 
 std::shared_ptr<const PackedOperator> PackedOperator::pack(const GridOperator& on_grid, const UsualCoefficients& usual,
@@ -99,29 +120,8 @@ std::shared_ptr<const PackedOperator> PackedOperator::pack(const GridOperator& o
           *next_face++ = {place, value};
         });
   });
-  packed->find_plain_rows();
+  packed->plain_ = plain_rows(packed->view(), packed->size_);
   return packed;
-}
-
-void PackedOperator::find_plain_rows() {
-  const std::size_t rows = n_rows(size_), ny = static_cast<std::size_t>(size_.ny);
-  Buffer<std::uint8_t> alone(rows);  // as PlainRow, of the row by itself
-  plain_.resize(rows);
-  std::uint8_t* const own = raw(alone);
-  std::uint8_t* const plain = raw(plain_);
-  const PackedView packed = view();
-  for_each_index(rows, [=] ESPDIFF_HD(std::size_t r) {
-    const std::uint32_t first = packed.first_run[r];
-    const unsigned code = packed.runs[first].code;
-    bool is_one = (code & ~PackedView::kIonsBit) == 0 && packed.first_face[r] == packed.first_face[r + 1];
-    for (std::uint32_t n = first; n < packed.first_run[r + 1]; ++n) is_one = is_one && packed.runs[n].code == code;
-    own[r] = !is_one ? kNotPlain : code != 0 ? kWithIons : kWithoutIons;
-  });
-  for_each_index(rows, [=] ESPDIFF_HD(std::size_t r) {
-    const bool is_inner = r % ny > 0 && r % ny < ny - 1 && r >= ny && r + ny < rows;
-    const bool is_among_plain = is_inner && own[r - 1] != kNotPlain && own[r - ny] != kNotPlain;
-    plain[r] = is_among_plain ? own[r] : std::uint8_t{kNotPlain};
-  });
 }
 
 void PackedOperator::unpack(GridOperator& on_grid) const {

@@ -64,8 +64,6 @@ class PackedOperator {
   PackedView view() const { return {raw(first_run_), raw(runs_), raw(first_face_), raw(listed_), raw(plain_), usual_}; }
 
  private:
-  void find_plain_rows();
-
   GridSize size_;
   UsualCoefficients usual_;
   Buffer<std::uint32_t> first_run_, first_face_;
