@@ -192,7 +192,7 @@ TEST_CASE("packed coefficients give the bits of arrays, at any number of threads
     const bool is_ball = of % 2 == 1;
     Random random(11);
     GridOperator arrays = is_ball ? ball_operator(size) : cut_operator(size, random);
-    const auto packed = espdiff::cpu_backend::PackedOperator::pack(arrays, {2.0F, 78.54F, 0.5F});
+    const auto packed = espdiff::cpu_backend::PackedOperator::pack(arrays, {2.0F, 78.54F, 0.5F}, 2);
     REQUIRE(packed != nullptr);
     if (is_ball) CHECK(has_all_kinds_of_rows(*packed, size));
     GridOperator again;
