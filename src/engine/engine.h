@@ -249,7 +249,7 @@ class Engine {
   /// @param lattice   cubic, along the axes; see poisson_boltzmann_lattice()
   /// @param to_map    common frame -> the frame of `positions` and of the map
   /// @param start     where the iteration starts: a potential of this engine in the same frame, such as that of a
-  /// trajectory's frame before, on any lattice; null starts from zero
+  /// trajectory's frame before, on any lattice; null for the wider grid's, or zero
   /// @param report    receives the solver's report; may be null
   /// @throws InputError (parameters, lattice, no charges, charges without radius outside all atoms), MemoryError,
   ///         ConvergenceError (with the residual), Cancelled
