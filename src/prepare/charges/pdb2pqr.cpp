@@ -30,6 +30,7 @@
 #include "prepare/charges/cache.h"
 #include "prepare/charges/ligand.h"
 #include "prepare/charges/modified_residues.h"
+#include "prepare/charges/python_start.h"
 #include "prepare/charges/separate_atoms.h"
 
 namespace espdiff {
@@ -241,7 +242,7 @@ std::string run_pdb2pqr(const std::string& program, const std::string& name, con
                         const std::string& ligand, const std::vector<std::string>& options, const Progress& progress) {
   const TemporaryFolder folder;
   ProgramCall call;
-  call.words = {program};
+  call.words = words_to_start(program);
   call.words.insert(call.words.end(), options.begin(), options.end());
   if (!ligand.empty()) call.words.push_back("--ligand=" + folder.write("ligand.mol2", ligand));
   call.words.insert(call.words.end(), {folder.write("input.pdb", pdb), folder.file("output.pqr")});

@@ -1,0 +1,63 @@
+// python_start.cpp: the interpreter by the program's first line, and what it runs before the program.
+#include "prepare/charges/python_start.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace espdiff {
+namespace {
+
+// Asked for anything that is not known here, a module is loaded. Of pkg_resources PROPKA asks for paths of files beside
+// its modules only.
+constexpr const char* kStart = R"(
+import importlib.util, os, sys, types
+del sys.argv[0]
+sys.path[0] = os.path.dirname(os.path.realpath(sys.argv[0]))
+def load_when_used(name, **known):
+    spec = importlib.util.find_spec(name)
+    if spec is None:
+        return
+    module = types.ModuleType(name)
+    def load(attribute):
+        if sys.modules.get(name) is module:
+            del sys.modules[name]
+        return getattr(importlib.import_module(name), attribute)
+    module.__dict__.update(known, __spec__=spec, __path__=spec.submodule_search_locations, __getattr__=load)
+    sys.modules[name] = module
+load_when_used('requests')
+load_when_used('pkg_resources', resource_filename=lambda package, name: os.path.join(
+    os.path.dirname(sys.modules[package].__file__), name))
+with open(sys.argv[0], 'rb') as program:
+    code = compile(program.read(), sys.argv[0], 'exec')
+exec(code, {'__name__': '__main__', '__file__': sys.argv[0]})
+)";
+
+/// The words behind "#!"; none where the file does not begin with it.
+std::vector<std::string> interpreter_of(const std::string& program) {
+  constexpr std::size_t kLongest = 256;  // Linux reads no more
+  std::string head(kLongest, '\0');
+  std::ifstream file(program, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  head.resize(std::min(head.find('\n'), head.size()));
+  std::vector<std::string> words;
+  if (head.compare(0, 2, "#!") != 0) return words;
+  std::istringstream line(head.substr(2));
+  for (std::string word; line >> word;) words.push_back(word);
+  return words;
+}
+
+}  // namespace
+
+std::vector<std::string> words_to_start(const std::string& program) {
+  std::vector<std::string> words = interpreter_of(program);
+  const bool is_python = std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return word.compare(word.find_last_of('/') + 1, 6, "python") == 0;
+  });
+  if (!is_python) return {program};
+  words.insert(words.end(), {"-c", kStart, program});
+  return words;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,77 @@
+// A program of Python starts as it does by itself, without the packages that it does not use; another one as it is.
+#include "prepare/charges/python_start.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+
+#include "io/files/run_program.h"
+#include "support/test_data.h"
+
+using espdiff::words_to_start;
+using espdiff_test::ScratchFolder;
+
+namespace {
+
+std::string printed_by(const std::vector<std::string>& words) {
+  espdiff::ProgramCall call;
+  call.words = words;
+  call.words.insert(call.words.end(), {"one", "two words"});
+  const espdiff::ProgramResult result = espdiff::run_program(call);
+  INFO(result.messages);
+  CHECK(result.status == 0);
+  return result.output;
+}
+
+}  // namespace
+
+TEST_CASE("words_to_start: packages that a program of Python does not use are not loaded") {
+  const ScratchFolder folder;
+  for (const char* package : {"requests", "pkg_resources"}) {
+    std::filesystem::create_directory(folder.file(package));
+    folder.write(std::string(package) + "/__init__.py",
+                 "print(__name__, 'loaded')\nvalue = 5\nresource_filename = None\n");
+  }
+  folder.write("requests/part.py", "value = 7\n");
+  folder.write("other.py", "");
+  const std::string head =
+      "#!/usr/bin/env python3\nimport sys\nprint(__name__, __file__ == sys.argv[0], sys.argv[1:])\n";
+  const std::string first = "__main__ True ['one', 'two words']\n";
+  const auto printed = [&](const std::string& body) {
+    const std::string program = folder.write("a program", head + body);
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    const std::string by_itself = printed_by({program}), started = printed_by(words_to_start(program));
+    CHECK(by_itself.find(first) == 0);
+    CHECK(started.find(first) == 0);
+    return std::pair(by_itself.substr(first.size()), started.substr(first.size()));
+  };
+  const auto [all, some] = printed("import requests, pkg_resources, other\nprint(other.__name__)\n");
+  CHECK(all == "requests loaded\npkg_resources loaded\nother\n");
+  CHECK(some == "other\n");
+  const auto [used, used_later] = printed("import requests\nprint('begin')\nprint(requests.value, requests.value)\n");
+  CHECK(used == "requests loaded\nbegin\n5 5\n");
+  CHECK(used_later == "begin\nrequests loaded\n5 5\n");
+  CHECK(printed("from requests import part\nprint(part.value)\n").second == "requests loaded\n7\n");
+  const std::string place =
+      "import other\nfrom pkg_resources import resource_filename as find\nprint(find and find('other', 'a.cfg'))\n";
+  CHECK(printed(place).second == folder.file("a.cfg") + "\n");
+}
+
+TEST_CASE("words_to_start: other programs run as they are") {
+  const ScratchFolder folder;
+  for (const char* content : {"#!/bin/sh\necho it\n",
+                              "\x7f"
+                              "ELF",
+                              "", "#!/opt/pythonic/run\n", "import sys\n"}) {
+    const std::string program = folder.write("program", content);
+    CHECK(words_to_start(program) == std::vector<std::string>{program});
+  }
+  CHECK(words_to_start("/no/such/program") == std::vector<std::string>{"/no/such/program"});
+  const std::string program = folder.write("program", "#!/opt/bin/python3.11 -I\n");
+  const std::vector<std::string> words = words_to_start(program);
+  REQUIRE(words.size() == 5);
+  CHECK(words[0] == "/opt/bin/python3.11");
+  CHECK(words[1] == "-I");
+  CHECK(words[2] == "-c");
+  CHECK(words[4] == program);
+}
