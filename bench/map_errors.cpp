@@ -19,7 +19,7 @@
 #include "engine/select_engine.h"
 #include "input_checks/map_check.h"
 #include "input_checks/map_warnings.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "mapping/build_surface.h"
 #include "options/options.h"
 #include "potential/potential_series.h"

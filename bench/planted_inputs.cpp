@@ -15,7 +15,7 @@
 #include "certificate/result.h"
 #include "input_checks/input_warnings.h"
 #include "io/molecules/select_atoms.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "motions/common_frame.h"
 #include "options/options.h"
 

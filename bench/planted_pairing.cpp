@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/molecule/structure_options.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 
 namespace {
 

@@ -24,7 +24,7 @@
 #include "engine/engine.h"
 #include "engine/poisson_boltzmann.h"
 #include "engine/select_engine.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "dcd_frames.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "synthetic_protein.h"
 
 namespace espdiff_bench {

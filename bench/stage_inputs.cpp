@@ -10,7 +10,7 @@
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
 #include "engine/surface_stage.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "real_pairs.h"
 #include "synthetic_protein.h"
 

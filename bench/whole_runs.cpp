@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "engine/engine.h"
 #include "engine/poisson_boltzmann.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "matrix/matrix.h"
 #include "options/options.h"
 #include "random_charges.h"

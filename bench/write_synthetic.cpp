@@ -5,7 +5,7 @@
 #include <exception>
 #include <string>
 
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "synthetic_protein.h"
 
 int main(int argc, char** argv) {

@@ -43,13 +43,6 @@ std::string written_value(double value) {
   return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general).ptr};
 }
 
-std::string joined_choices(const std::vector<std::string>& words) {
-  std::string list;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    list += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
-  return list;
-}
-
 bool is_within(const NumberRange& range, double value) {
   return std::isfinite(value) && (range.low_included ? value >= range.low : value > range.low) && value <= range.high;
 }

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/joined_words.h"
+
 namespace espdiff {
 
 enum class SettingKind { kNumber, kInteger, kBoolean, kChoice, kText };
@@ -50,8 +52,6 @@ bool read_value(const std::string& text, double& value);
 bool read_value(const std::string& text, long long& value);
 /// The shortest text that reads back as the same value.
 std::string written_value(double value);
-/// "a, b or c"
-std::string joined_choices(const std::vector<std::string>& words);
 bool is_within(const NumberRange& range, double value);
 
 /// The rows of each kind. `at` finds the value in the options: `[](auto& o) -> auto& { return o.alpha; }`.
@@ -126,7 +126,7 @@ struct RowsOf {
       for (const std::string& word : choices) {
         if (word == text) return set(o, text);
       }
-      refuse_value(name, text, joined_choices(choices));
+      refuse_value(name, text, joined_words(choices));
     };
     return row;
   }

@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/not_a_number.h"
 #include "io/molecules/select_atoms.h"
-#include "io/structures/read_structure.h"
 #include "io/structures/read_topology.h"
 #include "io/structures/structure_file.h"
 #include "prepare/charges/pdb2pqr.h"

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "base/text/joined_words.h"
 #include "io/files/read_input.h"
 #include "io/text/json_integer.h"
 #include "io/text/json_values.h"
@@ -27,12 +28,10 @@ constexpr std::array<const char*, 4> kStyles = {"none", "cartoon", "sticks", "li
 
 template <typename Enum, std::size_t Count>
 Enum parse_word(const std::array<const char*, Count>& words, const std::string& text, const char* what) {
-  std::string allowed;
   for (std::size_t i = 0; i < Count; ++i) {
     if (text == words[i]) return static_cast<Enum>(i);
-    allowed += std::string(i == 0 ? "" : i + 1 == Count ? " or " : ", ") + words[i];
   }
-  throw InputError(std::string("no ") + what + " '" + text + "'; use " + allowed);
+  throw InputError(std::string("no ") + what + " '" + text + "'; use " + joined_words({words.begin(), words.end()}));
 }
 
 // Writing and reading a member by its type; numbers, texts and lists are JSON's own.

@@ -3,7 +3,7 @@
 
 #include "align/geometry/superpose.h"
 #include "align/pair_atoms.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -23,6 +23,7 @@ const Rooms kAllowed = {
     {"io/files", {"system", "base", "io/text"}},
     {"io/molecules", {"system", "base", "io/text", "io/files"}},
     {"io/structures", {"system", "base", "io/text", "io/files", "io/molecules"}},
+    {"io/structures/formats", {"system", "base", "io/text", "io/files", "io/molecules", "io/structures"}},
     {"io/vtk", {"system", "base", "io/text", "io/files"}},
     {"io/grids", {"system", "base", "io/text", "io/files", "io/vtk"}},
     {"io/frames", {"system", "base", "io/text", "io/files", "io/molecules", "io/structures"}},

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "cli/run_espdiff.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 

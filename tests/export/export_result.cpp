@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "cli/run_espdiff.h"
 #include "export/export_result.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 
 using namespace espdiff;       // NOLINT: a test
 using namespace espdiff_test;  // NOLINT: a test

@@ -9,7 +9,7 @@
 
 #include "base/molecule/structure_options.h"
 #include "input_checks/planted_pairing.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;

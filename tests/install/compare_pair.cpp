@@ -10,7 +10,7 @@
 #include "engine/engine.h"
 #include "engine/select_engine.h"
 #include "io/grids/read_grid.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "mapping/input.h"
 #include "options/options.h"
 #include "report/records/metrics.h"

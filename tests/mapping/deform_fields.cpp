@@ -12,7 +12,7 @@
 #include "cuda/surface/back_ends.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "options/options.h"
 #include "support/test_data.h"
 

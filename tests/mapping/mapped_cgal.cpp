@@ -16,7 +16,7 @@
 
 #include "cuda/certificate/cgal_mesh.h"
 #include "engine/select_engine.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 
 using namespace espdiff_test;
 

@@ -13,7 +13,7 @@
 #include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "engine/select_engine.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "mapping/map_recipe.h"
 #include "options/options.h"
 #include "potential/computed_map.h"

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "compare/compare.h"
 #include "input_checks/map_warnings.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "mapping/build_surface.h"
 #include "mapping/input.h"
 #include "options/options.h"

@@ -7,7 +7,7 @@
 
 #include "align/residue_names.h"
 #include "base/molecule/input_options.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "prepare/charges/ion_table.h"
 #include "prepare/charges/open_babel.h"
 #include "prepare/charges/pdb2pqr.h"

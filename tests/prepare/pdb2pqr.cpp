@@ -16,7 +16,6 @@
 #include "io/files/run_program.h"
 #include "io/molecules/select_atoms.h"
 #include "io/molecules/write_pqr.h"
-#include "io/structures/read_structure.h"
 #include "io/structures/structure_file.h"
 #include "prepare/charges/cache.h"
 #include "prepare/charges/separate_atoms.h"

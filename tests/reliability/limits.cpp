@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "cli/run_espdiff.h"
 #include "io/molecules/molecule_builder.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "support/limit_memory.h"
 
 using namespace espdiff_test;  // NOLINT: a test

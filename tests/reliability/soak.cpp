@@ -19,7 +19,7 @@
 #include "compare/compare.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "mapping/input.h"
 #include "options/options.h"
 #include "potential/computed_map.h"

@@ -13,7 +13,7 @@
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "mapping/surface.h"
 #include "support/nan.h"
 #include "support/random.h"

@@ -12,7 +12,7 @@
 #include <set>
 
 #include "base/molecule/secondary_structure.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "support/test_data.h"
 #include "view/drawings/cartoon.h"
 #include "view/drawings/molecule_actors.h"

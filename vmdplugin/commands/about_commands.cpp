@@ -10,7 +10,6 @@
 #include "engine/select_engine.h"
 #include "field/field_kinds.h"
 #include "io/grids/read_dx.h"
-#include "io/structures/read_structure.h"
 #include "io/structures/structure_file.h"
 #include "mapping/map_recipe.h"
 #include "options/options.h"

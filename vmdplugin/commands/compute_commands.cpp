@@ -8,7 +8,6 @@
 #include "io/files/check_outputs.h"
 #include "io/molecules/select_atoms.h"
 #include "io/molecules/write_pqr.h"
-#include "io/structures/read_structure.h"
 #include "io/structures/structure_file.h"
 #include "mapping/surface.h"
 #include "options/options.h"

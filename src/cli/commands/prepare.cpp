@@ -11,7 +11,6 @@
 #include "io/files/atomic_file.h"
 #include "io/files/check_outputs.h"
 #include "io/molecules/write_pqr.h"
-#include "io/structures/read_structure.h"
 #include "io/structures/structure_file.h"
 #include "options/options.h"
 #include "prepare/input_files.h"

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/joined_words.h"
 #include "io/files/file_kind.h"
 #include "io/files/read_input.h"
 #include "io/grids/grid_format.h"
@@ -17,10 +18,7 @@ std::string names_of_formats(bool with_arrays_only) {
   for (const GridFormat& format : grid_formats()) {
     if (!with_arrays_only || format.has_arrays) names.push_back(format.name);
   }
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
-  return text;
+  return joined_words(names);
 }
 
 /// The format of a map. @throws InputError for a file that is none

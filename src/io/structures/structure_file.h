@@ -1,10 +1,10 @@
-// structure_file.h: the models of a structure file, or the frames of a trajectory with the atoms of another file.
+// structure_file.h: molecules from structure files (PQR, PDB, mmCIF), distinguished by content; their models, or the
+// frames of a trajectory with the atoms of another file, one after the other.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "base/molecule/structure_options.h"
 #include "base/molecule/unit_cell.h"
@@ -13,6 +13,21 @@
 namespace espdiff {
 
 class CoordinateFile;
+class StructureModels;
+
+/// Reads one conformation. The format is found from the content: a PQR, PDB or mmCIF under any name, also packed by
+/// gzip, is read as what it is. Atoms keep file order. Alternate locations: the one of highest mean occupancy in the
+/// residue (the first on ties). Models: MODEL records; without them (PDB, PQR) atoms that continue after END are the
+/// next model. Radii: the file's (PQR), otherwise Bondi's by element. Charges: the file's, otherwise none. Unit:
+/// elementary charge.
+/// @throws IoError (missing, directory, unreadable)
+/// @throws FormatError (with line: bad number, NaN, short record, negative radius)
+/// @throws InputError (no atoms, model out of range, format not read or not supported by this build, with remedy)
+Molecule read_structure(const std::string& path, const StructureOptions& options = {});
+
+/// Number of models in the file.
+/// @throws as read_structure()
+int count_models(const std::string& path);
 
 /// A structure file whose models are read one after the other, such as the frames of a trajectory: the file itself is
 /// read once, and its text kept.
@@ -43,10 +58,9 @@ class StructureFile {
   Molecule read(const StructureOptions& options) const;
 
  private:
-  struct Parsed;
-  struct Frames;
-  std::unique_ptr<Parsed> parsed_;  // null for a trajectory
-  std::unique_ptr<Frames> frames_;  // null for a structure file
+  std::string path_;
+  mutable std::string sha256_;
+  std::unique_ptr<StructureModels> models_;
 };
 
 }  // namespace espdiff

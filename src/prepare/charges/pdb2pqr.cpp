@@ -26,7 +26,7 @@
 #include "io/files/temporary_folder.h"
 #include "io/molecules/select_atoms.h"
 #include "io/molecules/write_pdb.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "prepare/charges/cache.h"
 #include "prepare/charges/ligand.h"
 #include "prepare/charges/modified_residues.h"

@@ -7,7 +7,7 @@
 
 #include "cuda/potential/apbs_oracle.h"
 #include "cuda/potential/poisson_boltzmann_inputs.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 
 using namespace espdiff_test;
 using espdiff::DielectricSmoothing;

@@ -7,7 +7,7 @@
 #include <initializer_list>
 
 #include "cuda/potential/poisson_boltzmann_inputs.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;

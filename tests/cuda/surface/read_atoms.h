@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cuda/surface/shapes.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 
 namespace espdiff_test {
 

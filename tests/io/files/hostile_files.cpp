@@ -9,7 +9,6 @@
 #include "io/files/read_input.h"
 #include "io/files/sha256.h"
 #include "io/grids/read_grid.h"
-#include "io/structures/read_structure.h"
 #include "io/structures/structure_file.h"
 #include "io/vtk/read_vtp.h"
 #include "io/vtk/write_vtp.h"

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "io/frames/open_structure.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

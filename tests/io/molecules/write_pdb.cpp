@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "support/test_data.h"
 
 using namespace espdiff;  // NOLINT: a test of one header

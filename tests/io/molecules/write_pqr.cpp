@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "support/test_data.h"
 
 using namespace espdiff;  // NOLINT: a test of one header

@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "base/error.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -1,6 +1,6 @@
 // read_mmcif.cpp: mmCIF files through gemmi.
 #include "base/error.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "io/structures/structure_text.h"
 #include "support/test_data.h"
 

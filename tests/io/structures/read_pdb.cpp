@@ -1,6 +1,6 @@
 // read_pdb.cpp: PDB files through gemmi: alternate locations, short and broken lines, models, elements.
 #include "base/error.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "io/structures/structure_text.h"
 #include "support/test_data.h"
 

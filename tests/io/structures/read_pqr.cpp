@@ -1,10 +1,10 @@
 // read_pqr.cpp: PQR files, free format and columns, real and broken.
-#include "io/structures/read_pqr.h"
+#include "io/structures/formats/read_pqr.h"
 
 #include <filesystem>
 
 #include "base/error.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "io/structures/structure_text.h"
 #include "support/test_data.h"
 #include "support/text.h"

@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "base/error.h"
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "io/structures/structure_text.h"
 #include "support/test_data.h"
 #include "support/text.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/structures/read_structure.h"
+#include "io/structures/structure_file.h"
 #include "support/test_data.h"
 
 namespace espdiff_test {

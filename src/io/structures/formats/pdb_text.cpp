@@ -1,5 +1,5 @@
 // pdb_text.cpp: column by column, what must be right in a PDB atom line.
-#include "io/structures/pdb_text.h"
+#include "io/structures/formats/pdb_text.h"
 
 #include <algorithm>
 #include <array>

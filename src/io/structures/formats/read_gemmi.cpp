@@ -1,5 +1,5 @@
 // read_gemmi.cpp: from gemmi's structures to ours: alternate locations, elements, file order.
-#include "io/structures/read_gemmi.h"
+#include "io/structures/formats/read_gemmi.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,9 +18,9 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "io/molecules/molecule_builder.h"
-#include "io/structures/build_assembly.h"
-#include "io/structures/call_gemmi.h"
-#include "io/structures/pdb_text.h"
+#include "io/structures/formats/build_assembly.h"
+#include "io/structures/formats/call_gemmi.h"
+#include "io/structures/formats/pdb_text.h"
 #include "io/text/text_cursor.h"
 
 namespace espdiff {

@@ -1,5 +1,5 @@
-// read_structure.cpp: files that are no structure are called by their name, with a remedy.
-#include "io/structures/read_structure.h"
+// structure_file.cpp: files that are no structure are called by their name, with a remedy.
+#include "io/structures/structure_file.h"
 
 #include "base/error.h"
 #include "support/test_data.h"

@@ -1,8 +1,9 @@
-// read_gemmi.h: molecules from PDB and mmCIF files, parsed by gemmi.
+// read_gemmi.h: molecules from PDB and mmCIF files, parsed by gemmi; errors in a build without it.
 #pragma once
 
 #include <string>
 
+#include "base/error.h"
 #include "base/molecule/structure_options.h"
 #include "base/types.h"
 #include "io/structures/atom_records.h"
@@ -26,5 +27,21 @@ Molecule read_mmcif(const std::string& path, const std::string& text, const Stru
 
 /// Number of models in an mmCIF file. @throws FormatError, InputError as read_mmcif()
 int count_mmcif_models(const std::string& path, const std::string& text);
+
+#ifndef ESPDIFF_HAVE_GEMMI
+[[noreturn]] inline void lack_gemmi(const std::string& path, const char* format) {
+  throw InputError(
+      path + ": this is a " + format +
+      " file, and this build lacks the PDB and mmCIF reader; build espdiff with gemmi (Debian: gemmi-dev), "
+      "or give a PQR file");
+}
+inline Molecule read_pdb(const std::string& path, const AtomModel&, const std::string&, const StructureOptions&) {
+  lack_gemmi(path, "PDB");
+}
+inline Molecule read_mmcif(const std::string& path, const std::string&, const StructureOptions&) {
+  lack_gemmi(path, "mmCIF");
+}
+inline int count_mmcif_models(const std::string& path, const std::string&) { lack_gemmi(path, "mmCIF"); }
+#endif
 
 }  // namespace espdiff

@@ -1,5 +1,5 @@
 // read_pqr.cpp: PQR lines, free or by columns.
-#include "io/structures/read_pqr.h"
+#include "io/structures/formats/read_pqr.h"
 
 #include <array>
 #include <limits>
