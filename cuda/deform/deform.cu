@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "cuda/deform/deform_graph.h"
 #include "cuda/deform/deform_iteration.h"
 #include "engine/deform_stage.h"
 

@@ -15,4 +15,15 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceMesh& 
                                     const DeformOptions& options, const std::string& stage, const Progress& progress,
                                     DeformReport* report);
 
+struct DeformState;
+struct Iteration;
+
+/// Sets the steps of the iteration's forces.
+void set_steps(Iteration& it, const DeformOptions& options);
+
+/// Iterates until the mean displacement falls below the limit or the maximum number of iterations is reached. The
+/// result is in `positions`. Reports progress, and may throw Cancelled, at checks.
+void iterate_one_by_one(DeformState& state, const DeformOptions& options, const std::string& stage,
+                        const Progress& progress, DeformReport& report);
+
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,5 +1,7 @@
 // deform_graph.cu: deform()'s iterations as a CUDA graph, recorded once and launched until the device reports
 // convergence.
+#include "cuda/deform/deform_graph.h"
+
 #include <utility>
 
 #include "cuda/deform/deform_iteration.h"

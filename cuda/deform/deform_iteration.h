@@ -1,5 +1,4 @@
-// deform_iteration.h: one iteration of deform() for one vertex, and the two ways to run many: one by one, or on a GPU
-// as a graph that is launched repeatedly.
+// deform_iteration.h: one iteration of deform() for one vertex.
 #pragma once
 
 #include "cuda/deform/deform.h"
@@ -59,25 +58,10 @@ ESPDIFF_INLINE void take_laplacian(const Iteration& it, std::size_t v) {
   it.laplacian[v] = umbrella(it.topology, it.from, v) - it.rest[v];
 }
 
-/// Sets the steps of the iteration's forces.
-void set_steps(Iteration& it, const DeformOptions& options);
-
 /// State of the iteration: positions, and a buffer for the next ones.
 struct DeformState {
   Iteration iteration{};  ///< all but `from` and `to`
   Buffer<Vec4f> positions, moved;
 };
-
-/// Iterates until the mean displacement falls below the limit or the maximum number of iterations is reached. The
-/// result is in `positions`. Reports progress, and may throw Cancelled, at checks.
-void iterate_one_by_one(DeformState& state, const DeformOptions& options, const std::string& stage,
-                        const Progress& progress, DeformReport& report);
-
-#if defined(ESPDIFF_BACKEND_CUDA)
-/// The same bits: rounds of kCheckInterval iterations, each with a check, are recorded once as a CUDA graph. The check
-/// decides on the device; kernels after convergence do nothing, so the host waits only once per graph.
-void iterate_in_graphs(DeformState& state, const DeformOptions& options, const std::string& stage,
-                       const Progress& progress, DeformReport& report);
-#endif
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,4 +1,6 @@
 // follow_level_set.cu: moves vertices with the atoms' velocity, then back onto the level set by Newton's method.
+#include "cuda/morph/follow_level_set.h"
+
 #include "cuda/device/spatial_order.h"
 #include "cuda/morph/flow_sums.h"
 #include "cuda/morph/moving_surface.h"

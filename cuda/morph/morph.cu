@@ -12,7 +12,11 @@
 #include "base/work.h"
 #include "cuda/device/spatial_order.h"
 #include "cuda/device/unwrap.h"
+#include "cuda/morph/follow_level_set.h"
 #include "cuda/morph/moving_surface.h"
+#include "cuda/morph/remove_torn_triangles.h"
+#include "cuda/morph/smooth_tangentially.h"
+#include "cuda/morph/split_long_edges.h"
 #include "cuda/surface/project.h"
 #include "engine/morph_stage.h"
 

@@ -11,6 +11,11 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
+struct MovingSurface;
+
+/// The surface at the start: no motion, no removed triangle.
+MovingSurface start_surface(const SurfaceMesh& mesh);
+
 /// See Engine::morph().
 MorphResult morph(const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms, const AtomCells& source_atoms,
                   const AtomCells& target_atoms, const MorphOptions& options, const std::string& stage,

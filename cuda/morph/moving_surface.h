@@ -1,4 +1,4 @@
-// moving_surface.h: the surface between source and target, and the operations of one step of the morph.
+// moving_surface.h: the surface between source and target, on which the steps of the morph work.
 #pragma once
 
 #include "cuda/morph/moving_atoms.h"
@@ -48,45 +48,5 @@ inline MovingSurfaceView view_of(MovingSurface& s) {
 
 /// Below this slope of the density, 1/Angstrom, the direction of the level set is undetermined.
 constexpr float kLeastSlope = 0.02F;
-
-/// The surface at the start: no motion, no removed triangle.
-MovingSurface start_surface(const SurfaceMesh& mesh);
-
-/// Moves every vertex with the flow (follow_level_set.cu).
-void advance(MovingSurface& surface, float dt);
-
-/// Returns vertices to the level set by Newton's method and evaluates the flow there; vertices that cannot return
-/// become unmatched (follow_level_set.cu).
-/// @param settled  [vertex] positions after an earlier call with the same atoms: vertices that are still there keep
-///                 place and flow; empty, or for vertices that were added since, none do
-void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float isovalue,
-                         const Buffer<Vec4f>& settled = {});
-
-/// The general form, in which each vertex takes all its steps at once; gives the same bits.
-void return_vertex_by_vertex(MovingSurface& surface, const MovingAtoms& atoms, float isovalue,
-                             const Buffer<Vec4f>& settled = {});
-
-/// Removes triangles that have an unmatched vertex or are flipped. Vertices become unmatched if their normal is flipped
-/// or no triangle remains at them (remove_torn_triangles.cu).
-void remove_torn_triangles(MovingSurface& surface);
-
-/// Smooths vertices whose triangles have a much worse shape than on the source: moves them toward the mean of their
-/// ring, along the surface, by at most a third of the smallest altitude, so that no triangle flips
-/// (smooth_tangentially.cu).
-void smooth_tangentially(MovingSurface& surface);
-
-/// Edges to be split.
-struct LongEdges {
-  Buffer<std::uint32_t> marks;  ///< as split_edges() takes them
-  Buffer<std::size_t> n;        ///< [0] how many
-};
-
-/// Finds the edges longer than `max_edge_A`; a vertex becomes unmatched where such an edge has grown more than
-/// `max_stretch` times (split_long_edges.cu).
-LongEdges find_long_edges(MovingSurface& surface, float max_edge_A, float max_stretch);
-
-/// Splits them; waits for their number.
-/// @returns the number of vertices added
-std::size_t split_long_edges(MovingSurface& surface, const LongEdges& edges);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

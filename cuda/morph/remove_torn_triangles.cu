@@ -1,5 +1,7 @@
 // remove_torn_triangles.cu: finds torn or crushed parts of the surface by comparing normals with the density's
 // gradient.
+#include "cuda/morph/remove_torn_triangles.h"
+
 #include "cuda/morph/moving_surface.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

@@ -1,4 +1,6 @@
 // smooth_tangentially.cu: improves badly shaped triangles of the moving surface and leaves the others alone.
+#include "cuda/morph/smooth_tangentially.h"
+
 #include "cuda/morph/moving_surface.h"
 #include "cuda/surface/mesh/adjacency.h"
 

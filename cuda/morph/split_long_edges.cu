@@ -1,5 +1,7 @@
 // split_long_edges.cu: splits edges that have grown too long; the surface is torn where an edge is stretched beyond a
 // limit.
+#include "cuda/morph/split_long_edges.h"
+
 #include "cuda/device/spatial_order.h"
 #include "cuda/morph/moving_surface.h"
 #include "cuda/surface/mesh/split_edges.h"

@@ -102,7 +102,4 @@ struct LaneSums {
   }
 };
 
-/// sum_i a_i b_i, in double precision, the same bits at any number of threads.
-double dot_product(const Buffer<float>& a, const Buffer<float>& b);
-
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -9,6 +9,7 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
+struct MapGrid;
 class PackedOperator;
 
 struct MapOrigin {
@@ -26,5 +27,13 @@ struct MapOrigin {
   std::vector<Vec3d> solute;
   double bulk_distance_A = -1;
 };
+
+/// The places of a map's charges, then those of the probes.
+std::vector<Vec3d> charge_places(const MapOrigin& origin, const std::vector<ProbeCharge>& probes);
+
+/// Turns what unit charges add into what the map's charges and the probes add.
+void scale_by_charges(const MapOrigin& origin, const std::vector<ProbeCharge>& probes, std::vector<double>& of_unit);
+
+std::shared_ptr<MapGrid> without_values(const MapGrid& map);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

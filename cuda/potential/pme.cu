@@ -11,7 +11,6 @@
 #include "base/progress.h"
 #include "base/work.h"
 #include "cuda/potential/bulk_zero.h"
-#include "cuda/potential/contributions.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/map_origin.h"
 #include "cuda/potential/pmepot_places.h"

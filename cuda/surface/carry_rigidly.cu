@@ -1,4 +1,6 @@
 // carry_rigidly.cu: moves each vertex by the density-weighted mean of the atoms' rigid motions.
+#include "cuda/surface/carry_rigidly.h"
+
 #include <string>
 
 #include "base/error.h"

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "cuda/surface/mesh/adjacency.h"
 #include "cuda/surface/tetrahedra.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

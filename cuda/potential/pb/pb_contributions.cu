@@ -7,12 +7,13 @@
 //     y = A_ii^-1 g_i,    contribution of charge j = q_j (S^t y + B^t (g_b - A_bi y))_j
 //
 // and the contributions add up to the reading. With a border from a wider grid, B^t is that grid's own transpose.
+#include "cuda/potential/pb/pb_contributions.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "base/error.h"
-#include "cuda/potential/contributions.h"
 #include "cuda/potential/debye_hueckel.h"
 #include "cuda/potential/map_origin.h"
 #include "cuda/potential/pb/conjugate_gradients.h"

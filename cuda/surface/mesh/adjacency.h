@@ -7,6 +7,9 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
+/// Builds the rows from the triangles.
+std::shared_ptr<const Topology> make_topology(std::size_t n_vertices, Buffer<Corners>&& triangles);
+
 /// [vertex] unit outward normals, the area-weighted mean of the incident triangles' normals; zero where they cancel.
 Buffer<Vec4f> vertex_normals(const SurfaceMesh& mesh);
 

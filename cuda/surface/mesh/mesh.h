@@ -33,9 +33,6 @@ struct TopologyView {
   const std::uint32_t* incident;
 };
 
-/// Builds the rows from the triangles (adjacency.cu).
-std::shared_ptr<const Topology> make_topology(std::size_t n_vertices, Buffer<Corners>&& triangles);
-
 struct SurfaceMesh : DeviceMesh {
   std::shared_ptr<const Topology> topology;
   Buffer<Vec4f> positions;  ///< [vertex] Angstrom, common frame; w is free for a stage's use

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "cuda/surface/mesh/adjacency.h"
+
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 

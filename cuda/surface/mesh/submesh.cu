@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "cuda/surface/mesh/adjacency.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

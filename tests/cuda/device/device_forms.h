@@ -17,6 +17,7 @@
 #include "cuda/device/device.h"
 #include "cuda/device/sort.h"
 #include "cuda/device/spatial_order.h"
+#include "cuda/surface/mesh/adjacency.h"
 #include "cuda/surface/mesh/components.h"
 #include "engine/deform_stage.h"
 

@@ -9,10 +9,13 @@
 
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/device/spatial_order.h"
+#include "cuda/morph/follow_level_set.h"
+#include "cuda/morph/morph.h"
 #include "cuda/morph/moving_atoms.h"
 #include "cuda/morph/moving_surface.h"
 #include "cuda/surface/density/density.h"
 #include "cuda/surface/isosurface.h"
+#include "cuda/surface/mesh/adjacency.h"
 #include "cuda/surface/mesh/split_edges.h"
 #include "cuda/surface/shapes.h"
 #include "engine/morph_stage.h"

@@ -1,4 +1,6 @@
 // grid_transfer.cu: restriction, interpolation, and the coarse grid's coefficients.
+#include "cuda/potential/pb/multigrid/grid_transfer.h"
+
 #include <algorithm>
 #include <vector>
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cuda/potential/pb/multigrid/grid_transfer.h"
 #include "cuda/potential/pb/multigrid/packed_operator.h"
 #include "cuda/potential/pb/multigrid/plane_sweeps.h"
 

@@ -66,17 +66,6 @@ ESPDIFF_INLINE float along_weighted(float before, float here, float after) {
   return 0.5F * (here + 0.5F * (before + after));
 }
 
-// Between a grid and the next coarser one (grid_transfer.cu).
-
-/// The coarse grid's size and coefficients, from the fine grid's faces, and its diagonal or packed k.
-void coarsen(const GridOperator& fine, GridOperator& coarse);
-/// The coarse face of fine ones that all have one dielectric, rounded as coarsen() rounds it.
-float coarse_face_of_equal(float dielectric);
-/// b of the coarse grid, the restricted residual.
-void restrict_to(const GridSize& fine, const Buffer<float>& r, const GridSize& coarse, Buffer<float>& b);
-/// x += trilinear interpolation of the coarse grid's.
-void add_interpolated(const GridSize& coarse, const Buffer<float>& correction, const GridSize& fine, Buffer<float>& x);
-
 class PlaneSweeps;
 
 class Multigrid {
@@ -116,6 +105,8 @@ class Multigrid {
 #endif
 };
 
+/// sum_i a_i b_i, in double precision, the same bits at any number of threads.
+double dot_product(const Buffer<float>& a, const Buffer<float>& b);
 /// x += alpha p, r -= alpha q. @returns r . r
 double advance(float alpha, const Buffer<float>& p, const Buffer<float>& q, Buffer<float>& x, Buffer<float>& r);
 /// r -= alpha q. @returns r . r

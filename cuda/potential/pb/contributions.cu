@@ -1,5 +1,5 @@
 // contributions.cu: the transpose of a computed potential by its method; that of isolated charges here.
-#include "cuda/potential/contributions.h"
+#include "cuda/potential/pb/contributions.h"
 
 #include <algorithm>
 #include <iterator>
@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/map_origin.h"
+#include "cuda/potential/pb/pb_contributions.h"
 #include "system/this_process.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -30,29 +31,6 @@ std::vector<double> coulomb_contributions(const MapOrigin& origin, const Weighte
 }
 
 }  // namespace
-
-std::vector<Vec3d> charge_places(const MapOrigin& origin, const std::vector<ProbeCharge>& probes) {
-  std::vector<Vec3d> places = origin.positions;
-  for (const ProbeCharge& probe : probes) places.push_back(probe.position);
-  return places;
-}
-
-void scale_by_charges(const MapOrigin& origin, const std::vector<ProbeCharge>& probes, std::vector<double>& of_unit) {
-  const std::size_t n = origin.charges.size();
-  for (std::size_t i = 0; i < n; ++i) of_unit[i] *= static_cast<double>(origin.charges[i]);
-  for (std::size_t i = 0; i < probes.size(); ++i) of_unit[n + i] *= static_cast<double>(probes[i].charge);
-}
-
-std::shared_ptr<MapGrid> without_values(const MapGrid& map) {
-  auto result = std::make_shared<MapGrid>();
-  result->lattice = map.lattice;
-  result->unit = map.unit;
-  std::copy(std::begin(map.to_index), std::end(map.to_index), result->to_index);
-  result->periodic = map.periodic;
-  result->spline_order = map.spline_order;
-  result->origin = map.origin;
-  return result;
-}
 
 std::vector<std::vector<double>> contributions(const MapGrid& map, const std::vector<PotentialReading>& readings,
                                                const std::vector<ProbeCharge>& given, PmeSolver& pme,
