@@ -17,6 +17,7 @@
 #include "statistics/replicate_columns.h"
 #include "statistics/surface/mesh_graph.h"
 #include "statistics/surface/surface_test.h"
+#include "statistics/test_within_runs.h"
 
 using namespace espdiff;
 using espdiff_test::Normal;

@@ -143,22 +143,6 @@ std::vector<KindSum> sums_by_kind(const Causes& causes, const CausesOfReading& r
 /// The part of the difference that residues make whose place is poorly known.
 KindSum poorly_known(const Causes& causes, const CausesOfReading& reading);
 
-/// What is compared.
-struct ComparedResidues {
-  const Molecule& source;
-  const Molecule& target;
-  const std::vector<std::int32_t>& target_of;  ///< [source residue] its partner, -1 for none
-  const AtomPairing& pairing;
-  const std::vector<ProtonationDifference>& protonation;
-  RigidTransform source_to_target;  ///< the superposition
-};
-
-/// What changed about each residue: those of the source, then the target's others.
-std::vector<ResidueChange> residue_changes(const ComparedResidues& compared);
-
-/// Whether the molecule's atoms have B factors that are not all the same.
-bool knows_places(const Molecule& molecule);
-
 /// What the charges of one state add, by residue.
 struct ResidueSums {
   std::vector<double> of_residue;  ///< [residue of the compared molecule]

@@ -1,4 +1,6 @@
 // residue_changes.cpp: finds what changed about each residue, and how well its place is known.
+#include "causes/residue_changes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -97,11 +97,6 @@ TrustedArea sum_trusted(const MappedSurface& surface, const SurfaceAreas& areas,
 TurnedArea turned_area(const MappedSurface& surface, const SurfaceAreas& areas, const std::vector<float>& outside,
                        const Molecule& source);
 
-/// The parts that are not trusted, by residues and secondary structure (assign_folds()), largest first: "loop GLY 47 to
-/// SER 51 of chain A (230 A^2): slipped". At most six are named. @param rows the residues to look at
-std::vector<std::string> untrusted_parts(const MappedSurface& surface, const SurfaceAreas& areas,
-                                         const std::vector<ResidueRow>& rows, const Molecule& source);
-
 /// The mean absolute difference over the source's whole surface, of which the trusted part is known.
 struct WholeSurface {
   /// If the rest of each residue differs like the residue's potentials on its own surfaces, times the ratio of both

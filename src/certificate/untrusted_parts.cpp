@@ -1,4 +1,6 @@
 // untrusted_parts.cpp: names the parts of a surface that are not trusted, by runs of residues.
+#include "certificate/untrusted_parts.h"
+
 #include <algorithm>
 #include <array>
 #include <numeric>

@@ -12,6 +12,7 @@
 #include "io/files/write_csv.h"
 #include "io/grids/read_grid.h"
 #include "io/text/text_cursor.h"
+#include "options/input_settings.h"
 #include "options/options.h"
 
 namespace espdiff::cli {

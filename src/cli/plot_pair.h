@@ -1,4 +1,4 @@
-// plot_pair.h: what `espdiff plot` draws of a comparison, and what a trajectory draws by itself.
+// plot_pair.h: what `espdiff plot` draws of a comparison.
 #pragma once
 
 #include <cstddef>
@@ -51,9 +51,5 @@ bool is_ensemble_table(const CsvTable& table);
 /// The means of both groups by residue. The groups' names and the unit come from the table and from the OUT.json beside
 /// it. @param bars, top, title as state_plot()
 StatePlot group_plot(const CsvTable& table, bool bars, std::size_t top, const std::string& title);
-
-/// As `espdiff plot TABLE -o PICTURE`, of a trajectory's table.
-/// @throws as line_plot_script(), write_picture()
-void plot_frames(const std::string& table, const std::string& picture);
 
 }  // namespace espdiff::cli

@@ -18,7 +18,7 @@
 #include "io/files/sha256.h"
 #include "mapping/map_recipe.h"
 #include "matrix/matrix_state.h"
-#include "options/input_settings.h"
+#include "options/cause_settings.h"
 #include "options/settings.h"
 #include "prepare/load_state.h"
 #include "prepare/surface_radii.h"

@@ -11,16 +11,6 @@
 
 namespace espdiff {
 
-const char* to_string(const FieldSide& side) {
-  switch (side.role) {
-    case FieldSide::kSource: return "source";
-    case FieldSide::kTarget: return "target";
-    case FieldSide::kVariant: return "variant";
-    case FieldSide::kFrame: break;
-  }
-  return "frame";
-}
-
 FieldKind kind_of_atoms(Quantity quantity, std::string help, std::string reference,
                         std::function<std::vector<float>(const Molecule&)> values) {
   FieldKind kind{std::move(quantity), "", std::move(help), std::move(reference), nullptr};

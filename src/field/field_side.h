@@ -38,6 +38,14 @@ struct FieldSide {
 };
 
 /// "source", "target", "variant", "frame"
-const char* to_string(const FieldSide& side);
+inline const char* to_string(const FieldSide& side) {
+  switch (side.role) {
+    case FieldSide::kSource: return "source";
+    case FieldSide::kTarget: return "target";
+    case FieldSide::kVariant: return "variant";
+    case FieldSide::kFrame: break;
+  }
+  return "frame";
+}
 
 }  // namespace espdiff

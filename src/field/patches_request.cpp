@@ -1,4 +1,6 @@
 // patches_request.cpp: which fields' patches are asked for, and beyond which thresholds.
+#include "field/patches_request.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>

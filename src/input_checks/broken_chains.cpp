@@ -1,4 +1,6 @@
 // broken_chains.cpp: finds neighbours of a chain that no chain can span.
+#include "input_checks/broken_chains.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -7,7 +9,6 @@
 
 #include "base/molecule/residue_label.h"
 #include "base/text/short_numbers.h"
-#include "input_checks/input_warnings.h"
 #include "input_checks/surroundings.h"
 
 namespace espdiff {

@@ -1,4 +1,6 @@
 // charge_warnings.cpp: charges that a molecule cannot have, and charges of two origins.
+#include "input_checks/charge_warnings.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +13,6 @@
 #include "base/formatted.h"
 #include "base/molecule/residue_label.h"
 #include "base/text/short_numbers.h"
-#include "input_checks/input_warnings.h"
 
 namespace espdiff {
 namespace {

@@ -1,4 +1,6 @@
 // composition_warnings.cpp: what one molecule has and the other has not, and what was left out of both.
+#include "input_checks/composition_warnings.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -13,7 +15,6 @@
 #include "base/molecule/residue_label.h"
 #include "base/text/short_numbers.h"
 #include "base/triangle_areas.h"
-#include "input_checks/input_warnings.h"
 
 namespace espdiff {
 namespace {

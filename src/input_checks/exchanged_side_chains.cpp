@@ -1,4 +1,6 @@
 // exchanged_side_chains.cpp: finds residues of one type whose side chains lie in each other's places.
+#include "input_checks/exchanged_side_chains.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +10,6 @@
 
 #include "base/molecule/residue_label.h"
 #include "base/text/short_numbers.h"
-#include "input_checks/input_warnings.h"
 #include "input_checks/surroundings.h"
 
 namespace espdiff {

@@ -1,4 +1,6 @@
 // geometry_warnings.cpp: coordinates that a molecule cannot have: their unit, rounding, bonds, and places taken twice.
+#include "input_checks/geometry_warnings.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +12,6 @@
 #include "base/formatted.h"
 #include "base/molecule/residue_label.h"
 #include "base/text/short_numbers.h"
-#include "input_checks/input_warnings.h"
 
 namespace espdiff {
 namespace {

@@ -17,6 +17,11 @@
 #include "base/error.h"
 #include "base/molecule/residue_label.h"
 #include "base/text/short_numbers.h"
+#include "input_checks/broken_chains.h"
+#include "input_checks/charge_warnings.h"
+#include "input_checks/exchanged_side_chains.h"
+#include "input_checks/geometry_warnings.h"
+#include "input_checks/register_warning.h"
 #include "input_checks/surroundings.h"
 
 namespace espdiff {

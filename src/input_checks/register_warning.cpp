@@ -1,4 +1,6 @@
 // register_warning.cpp: finds pairs of residues that are shifted along the chain, of the whole and of stretches.
+#include "input_checks/register_warning.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +11,6 @@
 #include "align/geometry/nearest_point.h"
 #include "base/molecule/residue_label.h"
 #include "base/text/short_numbers.h"
-#include "input_checks/input_warnings.h"
 #include "input_checks/surroundings.h"
 
 namespace espdiff {

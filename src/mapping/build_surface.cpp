@@ -7,7 +7,6 @@
 #include "engine/engine.h"
 #include "mapping/map_recipe.h"
 #include "mapping/side_maps.h"
-#include "mapping/surface.h"
 #include "options/options.h"
 
 namespace espdiff {

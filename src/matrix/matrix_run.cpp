@@ -14,7 +14,7 @@
 #include "io/files/check_outputs.h"
 #include "matrix/matrix_state.h"
 #include "matrix/write_matrix.h"
-#include "options/input_settings.h"
+#include "options/cause_settings.h"
 #include "options/options.h"
 #include "options/settings.h"
 

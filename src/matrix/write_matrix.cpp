@@ -8,8 +8,8 @@
 #include "io/files/atomic_file.h"
 #include "io/files/write_csv.h"
 #include "matrix/write_through_template.h"
+#include "report/compare_json.h"
 #include "report/sections/json_number.h"
-#include "report/write_compare.h"
 
 namespace espdiff {
 namespace {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/formatted.h"
+#include "report/compare_json.h"
 #include "report/sections/json_number.h"
-#include "report/write_compare.h"
 
 namespace espdiff {
 namespace {

@@ -1,4 +1,6 @@
 // cause_settings.cpp: settings that say which causes of a difference are wanted.
+#include "options/cause_settings.h"
+
 #include <algorithm>
 #include <sstream>
 
@@ -6,7 +8,6 @@
 #include "base/molecule/surface_parts.h"
 #include "base/text/printable.h"
 #include "causes/reading.h"
-#include "options/input_settings.h"
 #include "options/options.h"
 #include "options/settings.h"
 

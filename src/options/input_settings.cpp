@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/molecule/surface_parts.h"
 #include "base/text/printable.h"
+#include "options/cause_settings.h"
 #include "options/options.h"
 #include "options/settings.h"
 

@@ -15,11 +15,8 @@ struct Setting;
 /// Appends their rows to the table of settings.
 void add_input_settings(std::vector<Setting>& all);
 
-/// Those of the causes of a difference.
-void add_cause_settings(std::vector<Setting>& all);
-
-/// The row, marked as one that the surface depends on.
-Setting of_surface(Setting row);
+/// Whether one molecule's preparation depends on a setting: which atoms, and how they get charges.
+bool is_of_preparation(const Setting& setting);
 
 /// Reads "NAME=SELECTION|NAME=SELECTION".
 /// @throws InputError (form, name)
@@ -29,11 +26,6 @@ std::vector<PatchRequest> parse_patches(const std::string& text);
 std::vector<std::string> part_names(const InputOptions& options);
 /// The same of settings as a file has them, by name. @throws as parse_patches()
 std::vector<std::string> part_names(const std::vector<std::pair<std::string, std::string>>& settings);
-
-/// @param text the reading as it was given. @throws InputError if no patch of that name is asked for
-void require_patch(const CompareOptions& options, const std::string& text, const std::string& name);
-/// @throws InputError for causes of a region or patch that is not asked for
-void check_readings(const CompareOptions& options);
 
 /// @throws InputError for settings that exclude or need each other
 void check_input_options(const InputOptions& options);

@@ -11,6 +11,8 @@
 #include "field/field_kinds.h"
 #include "field/field_patches.h"
 #include "field/interface_request.h"
+#include "field/patches_request.h"
+#include "options/cause_settings.h"
 #include "options/input_settings.h"
 #include "options/options.h"
 

@@ -27,6 +27,9 @@ struct Setting : OptionRow<CompareOptions> {
   std::string key() const;
 };
 
+/// The row, marked as one that the surface depends on.
+Setting of_surface(Setting row);
+
 /// What a numeric setting accepts at least and at most, so that the work that follows from it stays within reason. What
 /// a molecule makes of it is asked when the molecule is known (base/work.h).
 struct SettingLimits {
@@ -57,9 +60,6 @@ constexpr const char* kStructureGroup = "Structures";
 constexpr const char* kChargeGroup = "Charges";
 constexpr const char* kRegionGroup = "Region";
 
-/// Whether one molecule's preparation depends on a setting: which atoms, and how they get charges.
-bool is_of_preparation(const Setting& setting);
-
 /// All settings, in the order of the manuals.
 const std::vector<Setting>& settings();
 
@@ -69,9 +69,6 @@ std::vector<std::pair<std::string, std::string>> setting_texts(const CompareOpti
 /// @param what of a run without patches of one state: "a matrix"
 /// @throws InputError if the options ask for them
 void refuse_patches_of(const CompareOptions& options, const std::string& what);
-
-/// For what makes several results of one kind. @throws InputError where causes are asked for
-void refuse_causes(const CompareOptions& options, const char* of_what);
 
 /// @throws InputError if there is none of that name; for an old name the message gives the new one
 const Setting& find_setting(const std::string& name);

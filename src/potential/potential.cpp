@@ -1,34 +1,68 @@
-// potential.cpp: computes the potentials of a molecule's frames in one common frame, and averages them.
+// potential.cpp: methods, cells and grids of potentials: read from text, around atoms, from lengths and angles.
 #include "potential/potential.h"
-#include "potential/potential_series.h"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "align/geometry/superpose.h"
-#include "align/geometry/unwrap.h"
-#include "align/pair_atoms.h"
 #include "base/error.h"
-#include "base/molecule/water.h"
-#include "engine/engine.h"
-#include "mapping/map_recipe.h"
+#include "base/formatted.h"
+#include "base/vector.h"
+#include "io/text/text_cursor.h"
 
 namespace espdiff {
 namespace {
 
-void check_options(const PotentialOptions& o) {
-  if (o.pme.compatible && o.align != AlignAtoms::kNone)
-    throw InputError("`compatible` with superposition: PMEPot has none; leave one out");
-  if (o.pme.compatible && o.method != PotentialMethod::kPme)
-    throw InputError("`compatible` with another potential than pme: it is about PMEPot; leave one out");
-  if (o.cell && o.pad_A) throw InputError("a cell and a padding were given; leave one out");
+std::vector<double> numbers_in(const std::string& text, const std::string& what) {
+  std::string plain = text;
+  for (char& c : plain) {
+    if (c == '{' || c == '}' || c == ',' || c == '"') c = ' ';
+  }
+  std::vector<double> numbers;
+  for (const std::string_view word : split_words(plain)) {
+    double value = 0;
+    if (!parse_number(word, value)) throw InputError(what + " has " + in_quotes(word) + ", which is not a number");
+    numbers.push_back(value);
+  }
+  return numbers;
 }
 
-RigidTransform onto(const std::vector<Vec3d>& moving, const std::vector<Vec3d>& fixed) {
-  std::vector<std::pair<std::size_t, std::size_t>> same;
-  for (std::size_t i = 0; i < moving.size(); ++i) same.emplace_back(i, i);
-  return superpose(moving, fixed, same).transform;
+/// The least number >= n whose prime factors are 2, 3, 5 and 7: fast transforms.
+int next_smooth(int n) {
+  for (;; ++n) {
+    int rest = n;
+    for (const int factor : {2, 3, 5, 7}) {
+      while (rest % factor == 0) rest /= factor;
+    }
+    if (rest == 1) return n;
+  }
+}
+
+struct Box {
+  Vec3d low, high;
+};
+
+Box box_around(const std::vector<Vec3d>& positions) {
+  if (positions.empty()) throw InputError("a cell around no atoms; select some");
+  Box box{positions.front(), positions.front()};
+  for (const Vec3d& p : positions) {
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], p[axis]);
+      box.high[axis] = std::max(box.high[axis], p[axis]);
+    }
+  }
+  return box;
+}
+
+/// The numbers of points in PMEPot's list.
+constexpr int kPmepotSizes[] = {8,   10,  12,  16,  20,  24,  30,  32,  36,  40,  48,  50,  56,  60,  64,  72,
+                                80,  84,  88,  96,  100, 108, 112, 120, 128, 144, 160, 168, 176, 192, 200, 216,
+                                224, 240, 256, 264, 288, 300, 324, 336, 360, 384, 400, 432, 448, 480, 512};
+
+int pmepot_size(double wanted) {
+  for (const int n : kPmepotSizes) {
+    if (n >= wanted) return n;
+  }
+  return *std::prev(std::end(kPmepotSizes));
 }
 
 }  // namespace
@@ -54,129 +88,90 @@ void require_charges(const Molecule& molecule) {
       "topology that has them (PSF, prmtop)");
 }
 
-/// The first frame, which later frames are superposed on.
-struct PotentialSeries::FirstFrame {
-  std::size_t n_atoms = 0;
-  std::vector<std::size_t> atoms;  ///< of the superposition; none without
-  std::vector<Vec3d> positions;    ///< [one of these] whole
-  PmeCell cell;
-  Lattice lattice;
-  GridPtr last;  ///< of pb: the last frame's, from which the next one's iteration starts
-};
-
-PotentialSeries::PotentialSeries(Engine& engine, PotentialOptions options)
-    : engine_(engine),
-      options_(std::move(options)),
-      // PMEPot has one cell for all frames.
-      one_lattice_(options_.align == AlignAtoms::kNone && (options_.cell.has_value() || options_.pme.compatible)),
-      average_(options_.frames_per_block) {
-  check_options(options_);
-}
-
-PotentialSeries::~PotentialSeries() = default;
-
-/// Whole, where the cell's border may have cut the molecule.
-std::vector<Vec3d> PotentialSeries::superposed_atoms(const Molecule& frame,
-                                                     const std::optional<UnitCell>& own_cell) const {
-  std::vector<Vec3d> atoms;
-  for (const std::size_t i : first_->atoms) atoms.push_back(frame.positions[i]);
-  const bool is_periodic = options_.cell || (own_cell && !options_.pad_A);
-  if (atoms.empty() || !is_periodic) return atoms;
-  return unwrapped(atoms, choose_cell(options_, frame.positions, own_cell).edges, first_->positions);
-}
-
-Grid PotentialSeries::compute(const std::vector<Vec3d>& positions, const Molecule& frame, const PmeCell& cell,
-                              const Progress& progress) const {
-  const bool is_first = first_->lattice.size[0] == 0;
-  if (options_.method == PotentialMethod::kCoulomb) {
-    if (is_first) first_->lattice = lattice_over(cell, choose_grid_size(cell, options_.grid, false));
-    return engine_.download(
-        engine_.coulomb_potential(positions, frame.charges, first_->lattice, options_.coulomb, progress));
+GridChoice parse_grid_choice(const std::string& text) {
+  const std::string accepted =
+      "; give three numbers of points, one number of points from 8 on, or a resolution below 8 A";
+  const std::vector<double> numbers = numbers_in(text, "the grid '" + text + "'");
+  constexpr double kLeastPoints = 8;
+  GridChoice choice;
+  if (numbers.size() == 1 && numbers[0] < kLeastPoints) {
+    if (!(numbers[0] > 0)) throw InputError("the grid's resolution '" + text + "' is not above 0" + accepted);
+    choice.resolution_A = numbers[0];
+    return choice;
   }
-  if (options_.method == PotentialMethod::kPoissonBoltzmann) {
-    if (frame.radii.size() != positions.size())
-      throw InputError(frame.name + ": Poisson-Boltzmann needs the atoms' radii; give a PQR file");
-    if (is_first)
-      first_->lattice = poisson_boltzmann_lattice(positions, frame.radii, options_.pb_spacing_A, options_.pb_padding_A);
-    first_->last = engine_.poisson_boltzmann(positions, frame.radii, frame.charges, first_->lattice, options_.pb, {},
-                                             first_->last, progress, nullptr);
-    return engine_.download(first_->last);
+  if (numbers.size() != 1 && numbers.size() != 3)
+    throw InputError("the grid '" + text + "' has " + std::to_string(numbers.size()) + " numbers" + accepted);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double n = numbers[numbers.size() == 1 ? 0 : axis];
+    constexpr double kMost = 1e6;
+    if (n != std::floor(n) || n < 1 || n > kMost)
+      throw InputError("the grid '" + text + "' has a number of points that is not a whole positive one" + accepted);
+    choice.size[axis] = static_cast<int>(n);
   }
-  PmeOptions pme = options_.pme;
-  pme.size = choose_grid_size(cell, options_.grid, pme.compatible);
-  pme.smooth_samples = !one_lattice_ && !is_first;
-  const GridPtr map = engine_.pme_potential(positions, frame.charges, cell, pme, {}, progress);
-  if (pme.smooth_samples) return engine_.download(engine_.resample(map, first_->lattice));
-  Grid grid = engine_.download(map);
-  first_->lattice = grid.lattice;
-  return grid;
+  return choice;
 }
 
-Grid PotentialSeries::next_map(const Molecule& frame, const std::optional<UnitCell>& own_cell,
-                               const Progress& progress) {
-  require_charges(frame);
-  if (!first_) {
-    auto first = std::make_unique<FirstFrame>();
-    first->n_atoms = frame.size();
-    if (options_.align != AlignAtoms::kNone) {
-      AtomPairing same;
-      for (std::size_t i = 0; i < frame.size(); ++i) {
-        const Residue& residue = frame.residues[static_cast<std::size_t>(frame.atoms[i].residue)];
-        if (!is_water_name(residue.name)) same.pairs.emplace_back(i, i);
-      }
-      for (const auto& pair : select_pairs(same, frame, options_.align)) first->atoms.push_back(pair.first);
-    }
-    first_ = std::move(first);
-    first_->positions = superposed_atoms(frame, own_cell);
-    first_->cell = choose_cell(options_, frame.positions, own_cell);
-    if (options_.around_aligned && !first_->positions.empty()) first_->cell.centre = middle_of(first_->positions);
-  } else if (frame.size() != first_->n_atoms) {
-    throw InputError(frame.name + ": a frame of " + std::to_string(frame.size()) + " atoms after one of " +
-                     std::to_string(first_->n_atoms) + "; frames must be of one molecule");
-  }
-  RigidTransform to_first;
-  std::vector<Vec3d> turned;
-  if (options_.align != AlignAtoms::kNone) {
-    to_first = onto(superposed_atoms(frame, own_cell), first_->positions);
-    turned = frame.positions;
-    for (Vec3d& p : turned) p = to_first.apply(p);
-  }
-  const std::vector<Vec3d>& positions = options_.align != AlignAtoms::kNone ? turned : frame.positions;
-  PmeCell cell = first_->cell;
-  const bool is_periodic = options_.cell || (own_cell && !options_.pad_A);
-  if (!one_lattice_) {
-    // A periodic cell turns with its atoms; a box around them is made anew along the first frame's axes.
-    cell = choose_cell(options_, is_periodic ? frame.positions : positions, own_cell);
-    if (is_periodic) {
-      cell.centre = to_first.apply(cell.centre);
-      for (Vec3d& edge : cell.edges) edge = to_first.rotate(edge);
-      if (options_.around_aligned) cell.centre = first_->cell.centre;  // a periodic potential does not depend on it
-    }
-  }
-  Grid map = compute(positions, frame, cell, progress);
-  // The samples of another cell are not periodic on this lattice.
-  map.periodic = options_.method == PotentialMethod::kPme && same_lattice(map.lattice, first_->lattice) &&
-                 (one_lattice_ || average_.n_frames() == 0);
-  map.name = frame.name + (options_.method == PotentialMethod::kPme       ? " (PME)"
-                           : options_.method == PotentialMethod::kCoulomb ? " (Coulomb)"
-                                                                          : " (Poisson-Boltzmann)");
-  return map;
+PmeCell parse_cell(const std::string& text) {
+  const std::vector<double> n = numbers_in(text, "the cell '" + text + "'");
+  if (n.size() != 12)
+    throw InputError("the cell '" + text + "' has " + std::to_string(n.size()) +
+                     " numbers; give twelve in Angstrom: centre and three edges, '{{ox oy oz} {ax ay az} {bx by bz} "
+                     "{cx cy cz}}'");
+  return {{n[0], n[1], n[2]}, {{{n[3], n[4], n[5]}, {n[6], n[7], n[8]}, {n[9], n[10], n[11]}}}};
 }
 
-Grid PotentialSeries::step(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress) {
-  Grid map = next_map(frame, own_cell, progress);
-  average_.add(map);
-  return map;
+Vec3d middle_of(const std::vector<Vec3d>& positions) {
+  const Box box = box_around(positions);
+  return 0.5 * (box.low + box.high);
 }
 
-void PotentialSeries::add(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress) {
-  average_.add(next_map(frame, own_cell, progress));
+PmeCell padded_cell(const std::vector<Vec3d>& positions, double pad_A) {
+  if (!(pad_A >= 0) || !std::isfinite(pad_A))
+    throw InputError("a padding of " + formatted(pad_A) + " A is negative; 10 is usual");
+  const Box box = box_around(positions);
+  const Vec3d side = box.high - box.low;
+  const double pads = 2 * pad_A;
+  return {0.5 * (box.low + box.high),
+          {Vec3d{side.x + pads, 0, 0}, Vec3d{0, side.y + pads, 0}, Vec3d{0, 0, side.z + pads}}};
 }
 
-Grid potential_map(Engine& engine, const Molecule& molecule, const PotentialOptions& options,
-                   const Progress& progress) {
-  PotentialSeries series(engine, options);
-  return series.step(molecule, std::nullopt, progress);
+PmeCell cell_from(const UnitCell& cell, Vec3d centre) {
+  constexpr double kDegree = kPi / 180;
+  // Right angles are exact: the cosine of 90 degrees in radians is not zero.
+  const auto cosine = [](double angle) { return angle == 90 ? 0.0 : std::cos(angle * kDegree); };
+  const double cos_bc = cosine(cell.angles.x), cos_ac = cosine(cell.angles.y), cos_ab = cosine(cell.angles.z);
+  const double sin_ab = cell.angles.z == 90 ? 1.0 : std::sin(cell.angles.z * kDegree);
+  const double y = sin_ab > 0 ? (cos_bc - cos_ac * cos_ab) / sin_ab : 2, z_square = 1 - cos_ac * cos_ac - y * y;
+  if (!(z_square > 0))
+    throw InputError("no cell has the angles " + formatted(cell.angles.x) + ", " + formatted(cell.angles.y) + " and " +
+                     formatted(cell.angles.z) + " degrees; correct the file's CRYST1 record, or give the cell's edges");
+  const Vec3d& l = cell.lengths;
+  return {centre,
+          {Vec3d{l.x, 0, 0}, Vec3d{l.y * cos_ab, l.y * sin_ab, 0},
+           Vec3d{l.z * cos_ac, l.z * y, l.z * std::sqrt(z_square)}}};
+}
+
+PmeCell choose_cell(const PotentialOptions& options, const std::vector<Vec3d>& positions,
+                    const std::optional<UnitCell>& own_cell) {
+  constexpr double kUsualPad_A = 10;
+  if (options.cell) return *options.cell;
+  if (own_cell && !options.pad_A) return cell_from(*own_cell, middle_of(positions));
+  return padded_cell(positions, options.pad_A.value_or(kUsualPad_A));
+}
+
+std::array<int, 3> choose_grid_size(const PmeCell& cell, const GridChoice& choice, bool compatible) {
+  if (choice.size[0] != 0) return choice.size;
+  if (!(choice.resolution_A > 0) || !std::isfinite(choice.resolution_A))
+    throw InputError("a grid resolution of " + formatted(choice.resolution_A) + " A is not above 0; 1 is usual");
+  std::array<int, 3> size{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double wanted = norm(cell.edges[axis]) / choice.resolution_A;
+    constexpr double kMost = 1e6;  // the engine names its own limit
+    constexpr double kSlack = 1e-9;
+    const int least = std::isfinite(wanted) ? static_cast<int>(std::ceil(std::min(wanted, kMost) - kSlack)) : 0;
+    size[axis] = compatible ? pmepot_size(wanted) : next_smooth(std::max(least, kPmepotSizes[0]));
+  }
+  return size;
 }
 
 }  // namespace espdiff

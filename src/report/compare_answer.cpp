@@ -1,4 +1,6 @@
 // compare_answer.cpp: what most readers need of a comparison, in twenty lines: the most important ones.
+#include "report/compare_answer.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -12,7 +14,6 @@
 #include "report/records/record.h"
 #include "report/records/record_words.h"
 #include "report/records/text_lines.h"
-#include "report/write_compare.h"
 
 namespace espdiff {
 namespace {

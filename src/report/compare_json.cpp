@@ -1,4 +1,6 @@
 // compare_json.cpp: a comparison's result as JSON.
+#include "report/compare_json.h"
+
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -22,7 +24,6 @@
 #include "report/sections/preparation_json.h"
 #include "report/sections/provenance.h"
 #include "report/state_report.h"
-#include "report/write_compare.h"
 
 namespace espdiff {
 namespace {

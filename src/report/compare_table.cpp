@@ -1,4 +1,6 @@
 // compare_table.cpp: a comparison's record as a table for a terminal, with every number.
+#include "report/compare_table.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +16,6 @@
 #include "report/records/record_words.h"
 #include "report/records/text_lines.h"
 #include "report/sections/interface_report.h"
-#include "report/write_compare.h"
 
 namespace espdiff {
 namespace {

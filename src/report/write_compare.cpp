@@ -23,6 +23,7 @@
 #include "mapping/map_recipe.h"
 #include "options/options.h"
 #include "potential/computed_map.h"
+#include "report/compare_json.h"
 #include "report/field_patches_report.h"
 #include "report/records/metrics.h"
 #include "report/sections/causes_report.h"
@@ -155,11 +156,6 @@ void write_residue_file(std::ostream& out, const Molecule& source, const Compare
 }
 
 }  // namespace
-
-InputFile computed_input(const std::string& role, const ComputedMap& map) {
-  return {role, to_string(map.recipe().method) + " of " + map.recipe().charges_from, map.fingerprint(),
-          std::make_shared<const MapRecipe>(map.recipe())};
-}
 
 namespace {
 

@@ -82,26 +82,4 @@ std::vector<std::string> write_compare_with_inputs(const std::string& output_pre
                                                    const CompareOptions& options, Provenance provenance,
                                                    const KeptInputs& kept);
 
-/// The content of OUT.json: every metric, the certificate, and what repeats the run.
-/// What has no value (NaN, potentials without maps, what this version does not check) is null. Texts need not be UTF-8.
-/// @param spelling of the options that messages name; files have their bare names
-nlohmann::ordered_json compare_json(const Molecule& source, const Molecule& target, const CompareResult& result,
-                                    const CompareOptions& options, const Provenance& provenance,
-                                    const OptionSpelling& spelling = bare_name);
-/// Settings as numbers, booleans and texts, by Setting::key(); without `thesis`, which stands for values of others.
-/// @throws InputError as find_setting()
-nlohmann::ordered_json options_json(const std::vector<std::pair<std::string, std::string>>& texts);
-
-/// Prints a comparison's record (compare_json()) for a terminal: every number and the certificate. At most 100 columns,
-/// units with every number.
-void print_table(std::ostream& out, const nlohmann::ordered_json& record);
-
-/// Prints what most readers need of a record: the verdict with its reasons, the numbers, what they rest on, the causes
-/// that were asked for, and the warnings, the most important first; about twenty lines. Long warnings are cut.
-/// @param show the command that prints the whole record; empty for none
-void print_answer(std::ostream& out, const nlohmann::ordered_json& record, const std::string& show);
-
-/// Prints the verdict and the main number in one line: "TRUSTWORTHY: mean absolute difference 0.397 kT/e".
-void print_verdict_line(std::ostream& out, const CompareResult& result);
-
 }  // namespace espdiff

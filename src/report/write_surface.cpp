@@ -3,8 +3,8 @@
 
 #include "io/files/atomic_file.h"
 #include "io/vtk/write_vtp.h"
+#include "mapping/build_surface.h"
 #include "mapping/map_recipe.h"
-#include "mapping/surface.h"
 
 namespace espdiff {
 

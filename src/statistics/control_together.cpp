@@ -1,9 +1,11 @@
 // control_together.cpp: family-wise p over several surfaces, such as those of several fields.
+#include "statistics/control_together.h"
+
 #include <algorithm>
 #include <cmath>
 
+#include "statistics/null_maxima.h"
 #include "statistics/regression.h"
-#include "statistics/surface/null_maxima.h"
 #include "statistics/surface/surface_test.h"
 
 namespace espdiff {

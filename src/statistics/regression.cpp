@@ -10,8 +10,8 @@
 #include "base/error.h"
 #include "base/not_a_number.h"
 #include "base/progress.h"
+#include "statistics/null_maxima.h"
 #include "statistics/surface/mesh_graph.h"
-#include "statistics/surface/null_maxima.h"
 #include "statistics/surface/tfce.h"
 #include "statistics/welch.h"
 

@@ -38,7 +38,4 @@ constexpr std::size_t kFewestValues = 4;
 SurfaceRegression regress_on_surface(const std::vector<std::vector<double>>& means, const std::vector<double>& values,
                                      const MeshGraph& graph, const SurfaceTestOptions& options);
 
-/// As for tests of groups: the same orders of the same values.
-void control_together(const std::vector<SurfaceRegression*>& regressions);
-
 }  // namespace espdiff

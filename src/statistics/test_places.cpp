@@ -1,9 +1,11 @@
 // test_places.cpp: area-weighted means over sets of vertices, compared between groups.
+#include "statistics/test_places.h"
+
 #include <cmath>
 #include <limits>
 
+#include "statistics/null_maxima.h"
 #include "statistics/surface/mesh_graph.h"
-#include "statistics/surface/null_maxima.h"
 #include "statistics/surface/surface_test.h"
 #include "statistics/welch.h"
 

@@ -1,4 +1,6 @@
 // test_within_runs.cpp: exchange of blocks of frames between runs, for groups of one replicate.
+#include "statistics/test_within_runs.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -6,10 +8,11 @@
 #include "base/not_a_number.h"
 #include "base/progress.h"
 #include "statistics/columns.h"
+#include "statistics/null_maxima.h"
 #include "statistics/replicate_columns.h"
 #include "statistics/surface/mesh_graph.h"
-#include "statistics/surface/null_maxima.h"
 #include "statistics/surface/surface_test.h"
+#include "statistics/test_replicates.h"
 
 namespace espdiff {
 namespace {

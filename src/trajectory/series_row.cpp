@@ -9,9 +9,9 @@
 #include "base/error.h"
 #include "certificate/region_result.h"
 #include "certificate/result.h"
+#include "report/compare_json.h"
 #include "report/records/metrics.h"
 #include "report/sections/provenance.h"
-#include "report/write_compare.h"
 
 namespace espdiff {
 namespace {

@@ -1,4 +1,6 @@
 // array_lines.cpp: arrays of OUT.vtp and columns of OUT.residues.csv that follow from others, or from the atoms.
+#include "verify/array_lines.h"
+
 #include <algorithm>
 #include <cmath>
 

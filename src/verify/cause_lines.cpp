@@ -1,4 +1,6 @@
 // cause_lines.cpp: OUT.json's causes against the rows of OUT.causes.csv, which holds all contributions.
+#include "verify/cause_lines.h"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

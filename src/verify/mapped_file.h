@@ -12,8 +12,6 @@
 
 namespace espdiff {
 
-class GaussianAtoms;
-
 /// Of the array `why`: 0 for trusted, and the reasons.
 constexpr int kNumberOfReasons = 9;
 
@@ -52,28 +50,5 @@ int column(const CsvTable& table, const std::string& name);
 
 /// The value below which this share of the weight lies; NaN without weight.
 double weighted_quantile(std::vector<std::pair<double, double>> weighted, double share);
-
-/// Areas, metrics (trusted, all), the trusted shares, the quantiles of slip, distortion and irregularity.
-void add_mapped_lines(const MappedFile& file, const ResultRecord& record, Lines& lines);
-
-/// The residue table against the vertices, and the correlation of its columns.
-void add_residue_lines(const MappedFile& file, const ResultRecord& record, const CsvTable& table, Lines& lines);
-
-/// Where the result is trusted, by reasons found again.
-/// @param partner_of by source residue; empty where the atoms were not read
-void add_trust_lines(const MappedFile& file, const CsvTable& table,
-                     const std::map<std::int32_t, std::int32_t>& partner_of, Lines& lines);
-/// The causes against OUT.causes.csv, where there are any.
-void add_cause_lines(const std::string& prefix, const ResultRecord& record, Lines& lines);
-
-/// Counts, and arrays that follow from others.
-void add_array_lines(const MappedFile& file, Lines& lines);
-/// Units, label and version, which more than one file has.
-void add_text_lines(const MappedFile& file, const ResultRecord& record, Lines& lines);
-/// Normals against the gradients of the atoms' density.
-void add_normal_lines(const MappedFile& file, const GaussianAtoms& source, const GaussianAtoms& target, Lines& lines);
-/// Names and numbers of residues against those of the source.
-void add_residue_name_lines(const MappedFile& file, const CsvTable& table, const std::vector<Residue>& residues,
-                            Lines& lines);
 
 }  // namespace espdiff

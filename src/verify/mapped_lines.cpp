@@ -1,4 +1,6 @@
 // mapped_lines.cpp: numbers that follow from OUT.vtp and OUT.residues.csv alone.
+#include "verify/mapped_lines.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

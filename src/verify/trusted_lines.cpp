@@ -1,4 +1,6 @@
 // trusted_lines.cpp: finds again where a result is trusted, from positions, slip, residues and potentials.
+#include "verify/trusted_lines.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>

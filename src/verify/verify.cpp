@@ -11,12 +11,16 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "io/structures/structure_file.h"
+#include "verify/array_lines.h"
+#include "verify/cause_lines.h"
 #include "verify/lines.h"
 #include "verify/map_deviation.h"
 #include "verify/mapped_file.h"
+#include "verify/mapped_lines.h"
 #include "verify/result_record.h"
 #include "verify/target_surface.h"
 #include "verify/triangle_meetings.h"
+#include "verify/trusted_lines.h"
 
 namespace espdiff {
 namespace {

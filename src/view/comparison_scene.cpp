@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "view/drawings/camera_view.h"
+#include "view/drawings/field_lines.h"
 #include "view/drawings/map_drawings.h"
 #include "view/drawings/molecule_actors.h"
 #include "view/drawings/residue_labels.h"

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "system/shared_library.h"
+#include "view/render_window.h"
 
 namespace espdiff {
 namespace {
@@ -47,6 +48,11 @@ std::string display_problem() {
   }
   if (!has_glx) return std::string("the X display '") + name + "' (DISPLAY) offers no OpenGL (GLX); " + kRemedy;
   return {};
+}
+
+std::string drawing_problem() {
+  const std::string problem = display_problem();
+  return problem.empty() || can_draw_without_display() ? std::string() : problem;
 }
 
 }  // namespace espdiff

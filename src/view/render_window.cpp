@@ -65,9 +65,6 @@ vtkSmartPointer<vtkRenderWindow> make_hidden_window() {
   return window;
 }
 
-std::string drawing_problem() {
-  const std::string problem = display_problem();
-  return problem.empty() || without_display() != nullptr ? std::string() : problem;
-}
+bool can_draw_without_display() { return without_display() != nullptr; }
 
 }  // namespace espdiff

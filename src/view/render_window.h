@@ -12,4 +12,7 @@ namespace espdiff {
 /// @throws DeviceError saying how to get a display
 vtkSmartPointer<vtkRenderWindow> make_hidden_window();
 
+/// Whether EGL or OSMesa is there.
+bool can_draw_without_display();
+
 }  // namespace espdiff

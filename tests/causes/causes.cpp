@@ -8,6 +8,7 @@
 #include "align/made_molecule.h"
 #include "causes/chi_angles.h"
 #include "causes/reading.h"
+#include "causes/residue_changes.h"
 #include "support/random.h"
 #include "support/test_data.h"
 

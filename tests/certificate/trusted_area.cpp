@@ -10,6 +10,7 @@
 #include "certificate/certificate.h"
 #include "certificate/residue_rows.h"
 #include "certificate/result.h"
+#include "certificate/untrusted_parts.h"
 #include "support/nan.h"
 
 using espdiff::CompareResult;

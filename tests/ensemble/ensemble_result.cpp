@@ -16,6 +16,8 @@
 #include "ensemble/frames/replicate_request.h"
 #include "ensemble/planted_file.h"
 #include "ensemble/relabel.h"
+#include "ensemble/result/ensemble_json.h"
+#include "ensemble/result/ensemble_table.h"
 #include "ensemble/result/write_ensemble.h"
 
 using namespace espdiff;

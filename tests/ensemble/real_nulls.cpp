@@ -10,6 +10,7 @@
 #include "ensemble/ensemble_study.h"
 #include "ensemble/file/ensemble_file.h"
 #include "statistics/replicate_columns.h"
+#include "statistics/test_replicates.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "cuda/surface/shapes.h"
 #include "field/field_patches.h"
+#include "field/patches_request.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;

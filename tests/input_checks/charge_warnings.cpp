@@ -6,7 +6,7 @@
 #include "align/pair_atoms.h"
 #include "align/pair_residues.h"
 #include "compare/made_peptide.h"
-#include "input_checks/input_warnings.h"
+#include "input_checks/charge_warnings.h"
 
 using namespace espdiff;
 using espdiff_test::add_ion;

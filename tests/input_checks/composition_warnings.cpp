@@ -6,7 +6,7 @@
 #include "align/pair_atoms.h"
 #include "base/not_a_number.h"
 #include "compare/made_peptide.h"
-#include "input_checks/input_warnings.h"
+#include "input_checks/composition_warnings.h"
 
 using namespace espdiff;
 using espdiff_test::add_ion;

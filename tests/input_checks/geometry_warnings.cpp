@@ -5,7 +5,7 @@
 
 #include "align/pair_residues.h"
 #include "compare/made_peptide.h"
-#include "input_checks/input_warnings.h"
+#include "input_checks/geometry_warnings.h"
 
 using namespace espdiff;
 using espdiff_test::made_peptide;

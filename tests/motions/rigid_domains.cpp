@@ -13,9 +13,10 @@
 #include "engine/engine.h"
 #include "engine/select_engine.h"
 #include "options/options.h"
+#include "report/compare_json.h"
+#include "report/compare_table.h"
 #include "report/records/metrics.h"
 #include "report/sections/provenance.h"
-#include "report/write_compare.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;

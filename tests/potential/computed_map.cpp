@@ -19,8 +19,8 @@
 #include "potential/potential.h"
 #include "potential/potential_series.h"
 #include "potential/potential_settings.h"
+#include "report/compare_json.h"
 #include "report/sections/provenance.h"
-#include "report/write_compare.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;

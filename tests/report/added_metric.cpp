@@ -10,6 +10,8 @@
 #include "certificate/result.h"
 #include "matrix/write_matrix.h"
 #include "options/options.h"
+#include "report/compare_json.h"
+#include "report/compare_table.h"
 #include "report/records/metrics.h"
 #include "report/residue_values.h"
 #include "report/write_compare.h"

@@ -14,7 +14,7 @@
 #include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "io/structures/structure_file.h"
-#include "mapping/surface.h"
+#include "mapping/build_surface.h"
 #include "support/nan.h"
 #include "support/random.h"
 #include "support/test_data.h"

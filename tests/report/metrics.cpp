@@ -11,9 +11,10 @@
 
 #include "certificate/result.h"
 #include "options/options.h"
+#include "report/compare_json.h"
+#include "report/compare_table.h"
 #include "report/residue_values.h"
 #include "report/sections/provenance.h"
-#include "report/write_compare.h"
 
 using namespace espdiff;
 using OrderedJson = nlohmann::ordered_json;

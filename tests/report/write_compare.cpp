@@ -12,6 +12,8 @@
 #include "engine/deform_stage.h"
 #include "options/options.h"
 #include "options/settings.h"
+#include "report/compare_json.h"
+#include "report/compare_table.h"
 #include "report/sections/provenance.h"
 #include "support/nan.h"
 #include "support/test_data.h"

@@ -8,6 +8,7 @@
 #include "statistics/planted_columns.h"
 #include "statistics/surface/mesh_graph.h"
 #include "statistics/surface/surface_test.h"
+#include "statistics/test_replicates.h"
 
 using namespace espdiff;
 using espdiff_test::make_ellipsoid;

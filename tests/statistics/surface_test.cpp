@@ -9,9 +9,13 @@
 #include <string>
 
 #include "statistics/columns.h"
+#include "statistics/control_together.h"
 #include "statistics/planted_columns.h"
 #include "statistics/replicate_columns.h"
 #include "statistics/surface/mesh_graph.h"
+#include "statistics/test_places.h"
+#include "statistics/test_replicates.h"
+#include "statistics/test_within_runs.h"
 #include "statistics/welch.h"
 
 using namespace espdiff;

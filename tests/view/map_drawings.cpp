@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "scene/map_sampling.h"
+#include "view/drawings/field_lines.h"
 #include "view/made_comparison.h"
 
 using namespace espdiff;  // NOLINT: a test of these headers

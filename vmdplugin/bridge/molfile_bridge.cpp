@@ -15,6 +15,7 @@
 #include "boundary.h"
 #include "io/grids/grid_checks.h"
 #include "io/grids/read_dx.h"
+#include "molfile_vti.h"
 
 namespace espdiff {
 namespace {

@@ -26,8 +26,4 @@ int register_plugins(void* registrar, molfile::RegisterCallback callback) noexce
 /// The accepted version of VMD's plugin interface; 0 before that, and outside of VMD.
 int accepted_abi();
 
-/// All scalar point arrays of a VTI file, each with its array's name as dataname.
-/// @throws what read_vti() throws; InputError when there is none
-std::vector<StoredVolume> read_vti_volumes(const std::string& path);
-
 }  // namespace espdiff

@@ -1,7 +1,8 @@
 // molfile_vti.cpp: the volumes that VMD sees in a VTI file.
+#include "molfile_vti.h"
+
 #include "base/error.h"
 #include "io/grids/read_vti.h"
-#include "molfile_bridge.h"
 
 namespace espdiff {
 

@@ -25,6 +25,7 @@
 #ifdef ESPDIFF_HAVE_HDF5
 #include "ensemble/ensemble_study.h"
 #endif
+#include "options/input_settings.h"
 #include "prepare/charges/pdb2pqr.h"
 #include "report/records/metrics.h"
 #include "system/this_process.h"

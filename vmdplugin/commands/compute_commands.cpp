@@ -9,7 +9,7 @@
 #include "io/molecules/select_atoms.h"
 #include "io/molecules/write_pqr.h"
 #include "io/structures/structure_file.h"
-#include "mapping/surface.h"
+#include "mapping/build_surface.h"
 #include "options/options.h"
 #include "options/settings.h"
 #include "prepare/input_files.h"

@@ -8,7 +8,8 @@
 #include "base/error.h"
 #include "ensemble/ensemble_run.h"
 #include "ensemble/file/ensemble_file.h"
-#include "ensemble/result/write_ensemble.h"
+#include "ensemble/result/ensemble_json.h"
+#include "ensemble/result/ensemble_table.h"
 #include "ensemble/template_matrix.h"
 #include "ensemble_object.h"
 #endif

@@ -9,7 +9,7 @@
 
 #include "certificate/result.h"
 #include "frames/frame_files.h"
-#include "mapping/surface.h"
+#include "mapping/build_surface.h"
 #include "options/options.h"
 #include "potential/potential.h"
 #include "potential/potential_series.h"

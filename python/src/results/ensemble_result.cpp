@@ -11,7 +11,8 @@
 
 #include "base/error.h"
 #include "ensemble/file/ensemble_file.h"
-#include "ensemble/result/write_ensemble.h"
+#include "ensemble/result/ensemble_json.h"
+#include "ensemble/result/ensemble_table.h"
 #include "python/src/boundary/arrays.h"
 
 namespace espdiff::python {

@@ -1,5 +1,5 @@
 // surface.cpp: surface(): one molecule's surface, with its potential.
-#include "mapping/surface.h"
+#include "mapping/build_surface.h"
 
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/pair.h>

@@ -12,7 +12,7 @@
 #include "engine/engine.h"
 #include "ensemble/ensemble_study.h"
 #include "ensemble/file/ensemble_file.h"
-#include "ensemble/result/write_ensemble.h"
+#include "ensemble/result/ensemble_table.h"
 #include "matrix/matrix_run.h"
 
 namespace espdiff::cli {

@@ -1,4 +1,6 @@
 // plot.cpp: `espdiff plot FILE -o OUT.svg`.
+#include "cli/commands/plot.h"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

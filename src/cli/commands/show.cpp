@@ -6,8 +6,9 @@
 #include "cli/output_prefix.h"
 #include "cli/verbs.h"
 #include "cli/words/help.h"
+#include "report/compare_answer.h"
+#include "report/compare_table.h"
 #include "report/records/pair_files.h"
-#include "report/write_compare.h"
 
 namespace espdiff::cli {
 

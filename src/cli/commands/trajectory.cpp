@@ -6,13 +6,12 @@
 
 #include "base/formatted.h"
 #include "base/text/printable.h"
+#include "cli/commands/plot.h"
 #include "cli/map_options.h"
-#include "cli/plot_pair.h"
 #include "cli/verbs.h"
 #include "cli/words/help.h"
 #include "engine/engine.h"
 #include "io/files/check_outputs.h"
-#include "options/input_settings.h"
 #include "plot/gnuplot.h"
 #include "study/trajectory_study.h"
 

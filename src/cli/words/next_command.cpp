@@ -9,6 +9,7 @@
 #include "cli/words/spelling.h"
 #include "field/field_kinds.h"
 #include "field/field_patches.h"
+#include "field/patches_request.h"
 #include "potential/potential_settings.h"
 #include "report/records/metrics.h"
 

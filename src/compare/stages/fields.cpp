@@ -12,6 +12,7 @@
 #include "certificate/result.h"
 #include "certificate/trusted_area.h"
 #include "engine/engine.h"
+#include "field/patches_request.h"
 #include "field/read_field.h"
 #include "mapping/sample_outside.h"
 #include "options/options.h"

@@ -8,6 +8,7 @@
 
 #include "certificate/certificate.h"
 #include "certificate/place_patch.h"
+#include "certificate/untrusted_parts.h"
 #include "engine/engine.h"
 
 namespace espdiff {

@@ -11,11 +11,12 @@
 #include "base/triangle_areas.h"
 #include "causes/causes.h"
 #include "causes/reading.h"
+#include "causes/residue_changes.h"
 #include "compare/stages/cause_probes.h"
 #include "engine/engine.h"
 #include "mapping/map_recipe.h"
 #include "mapping/sample_outside.h"
-#include "options/input_settings.h"
+#include "options/cause_settings.h"
 #include "options/options.h"
 
 namespace espdiff {

@@ -1,4 +1,6 @@
 // ensemble_conclusion.cpp: the answer in one sentence, before its numbers.
+#include "ensemble/result/ensemble_conclusion.h"
+
 #include <cmath>
 
 #include "base/formatted.h"

@@ -1,4 +1,6 @@
 // ensemble_json.cpp: OUT.json of an ensemble.
+#include "ensemble/result/ensemble_json.h"
+
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -7,7 +9,7 @@
 #include "base/version.h"
 #include "ensemble/file/ensemble_file.h"
 #include "ensemble/result/ensemble_result.h"
-#include "ensemble/result/write_ensemble.h"
+#include "report/compare_json.h"
 #include "report/sections/json_number.h"
 #include "report/sections/placement.h"
 #include "statistics/permutations.h"

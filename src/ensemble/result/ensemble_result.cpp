@@ -11,9 +11,14 @@
 #include "base/molecule/earlier_patch.h"
 #include "base/not_a_number.h"
 #include "ensemble/file/ensemble_file.h"
+#include "ensemble/result/ensemble_conclusion.h"
 #include "ensemble/result/template_patches.h"
+#include "statistics/control_together.h"
 #include "statistics/false_discovery.h"
 #include "statistics/replicate_columns.h"
+#include "statistics/test_places.h"
+#include "statistics/test_replicates.h"
+#include "statistics/test_within_runs.h"
 
 namespace espdiff {
 namespace {

@@ -114,10 +114,6 @@ std::vector<float> where_tested(const std::vector<double>& values, const std::ve
 /// between these two is a choice: it was one third until four of eight short Trp-cage runs exceeded that.
 constexpr double kDriftLevel = 0.01, kDriftShare = 0.5;
 
-/// The answer in one sentence: whether the states differ, or why that cannot be concluded. Names of cause and remedy
-/// are in it, so that it stands alone. @param unit of the potential
-std::string conclusion_of(const EnsembleResult& result, const std::string& unit);
-
 /// Computes the statistics of a complete file. The same bits at any number of threads.
 /// @throws InputError (frames are missing; values of a replicate that do not change; no vertex is left to test)
 EnsembleResult analyse_ensemble(const EnsembleFile& file, const EnsembleOptions& options);

@@ -1,4 +1,6 @@
 // ensemble_table.cpp: the printed answer.
+#include "ensemble/result/ensemble_table.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -10,7 +12,6 @@
 #include "base/formatted.h"
 #include "ensemble/file/ensemble_file.h"
 #include "ensemble/result/ensemble_result.h"
-#include "ensemble/result/write_ensemble.h"
 #include "mapping/map_recipe.h"
 #include "report/records/record.h"
 #include "report/sections/placement.h"

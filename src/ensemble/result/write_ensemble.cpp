@@ -8,6 +8,7 @@
 
 #include "base/version.h"
 #include "ensemble/file/ensemble_file.h"
+#include "ensemble/result/ensemble_json.h"
 #include "ensemble/result/ensemble_result.h"
 #include "io/files/atomic_file.h"
 #include "io/files/write_csv.h"

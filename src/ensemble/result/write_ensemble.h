@@ -1,8 +1,6 @@
 // write_ensemble.h: writes an ensemble's statistics as files and as a table.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -36,13 +34,5 @@ std::vector<std::string> ensemble_outputs(const std::string& output_prefix, cons
 /// @throws IoError
 std::vector<std::string> write_ensemble(const std::string& output_prefix, const EnsembleFile& file,
                                         const EnsembleResult& result);
-
-/// Keys: version, plan, options, design, groups, replicates, area_A2, test, noise_floor, patches, equilibrium,
-/// warnings.
-nlohmann::ordered_json ensemble_json(const EnsembleFile& file, const EnsembleResult& result);
-
-/// The answer in at most 100 columns. @param said warnings that were printed already
-void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleResult& result,
-                    const std::vector<std::string>& said = {});
 
 }  // namespace espdiff

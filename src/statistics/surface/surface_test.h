@@ -65,42 +65,4 @@ struct SurfaceTestOptions {
   double least_inefficiency = 1;
 };
 
-/// Exchanges the labels of replicates. Statistic: Welch's t of the replicates' means. Its p-values are the shares of
-/// permutations whose largest |t| (max-t) or TFCE score on the surface is at least the vertex' own: both control the
-/// family-wise error (Nichols & Holmes 2002, Hum. Brain Mapp. 15:1; Winkler et al. 2014, NeuroImage 92:381). `p` and
-/// the interval are Welch's, of each vertex alone.
-/// @param means   [replicate][vertex], those of the first group first; NaN: not tested
-/// @param n_first replicates of the first group; at least 2, as of the second
-SurfaceTest test_replicates(const std::vector<std::vector<double>>& means, std::size_t n_first, const MeshGraph& graph,
-                            const SurfaceTestOptions& options);
-
-/// For a group of one replicate: cuts the runs into blocks, and does with their means what test_replicates() does with
-/// those of replicates: Welch's t has its error estimated anew in each permutation. That is exact where blocks can be
-/// exchanged. So they are at least twice as long as the statistical inefficiency g, and g frames between them are left
-/// out: means of neighbouring blocks of an autoregressive series then have a correlation of 0.02, and 0.17 without the
-/// gap. Differences are of all frames; errors, t and p of the blocks. With fewer than four blocks of a run there is no
-/// p and no interval (`no_p`).
-/// @param tested [vertex] nonzero where values are compared
-SurfaceTest test_within_runs(const Columns& columns, const std::vector<ReplicateColumns>& replicates,
-                             std::size_t n_first, const std::vector<char>& tested, const MeshGraph& graph,
-                             const SurfaceTestOptions& options);
-
-/// The statistical inefficiency that blocks within runs are made for: the ninth decile over the tested vertices, of the
-/// run where it is largest; 1 without a value.
-double inefficiency_of_runs(const std::vector<ReplicateColumns>& replicates, const std::vector<char>& tested);
-
-/// Family-wise p over the surfaces of several tests together: the share of permutations whose largest |t|, or TFCE
-/// score, on any of the surfaces is at least the vertex' own (the maximum over modalities, Winkler et al. 2016, Hum.
-/// Brain Mapp. 37:1486). The tests exchange the same labels of the same replicates or blocks; those without p are left
-/// alone.
-void control_together(const std::vector<SurfaceTest*>& tests);
-
-/// Compares area-weighted means over sets of vertices, such as residues or patches, by Welch's test of replicates, or
-/// of the blocks of runs.
-/// @param means [replicate][vertex], as in test_replicates()
-/// @param members [place] vertices; those not tested do not count; a place without one has NaN
-PlaceTests test_places(const SurfaceTest& surface, const std::vector<std::vector<double>>& means, std::size_t n_first,
-                       const MeshGraph& graph, const std::vector<std::vector<std::uint32_t>>& members,
-                       double confidence);
-
 }  // namespace espdiff

@@ -1,4 +1,6 @@
 // field_lines.cpp: traces field lines of a potential map outside a surface.
+#include "view/drawings/field_lines.h"
+
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>

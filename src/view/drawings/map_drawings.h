@@ -34,14 +34,6 @@ vtkSmartPointer<vtkProp> make_isopotential(const PlacedMap& map, double value, c
 vtkSmartPointer<vtkProp> make_slice(const PlacedMap& map, const CameraView& view, double radius_A, double depth,
                                     const ColourScale& scale);
 
-/// Field lines (along -grad of the potential, in both directions) from points on the surface, outside of it. They start
-/// at the vertices with the strongest field, at least 4 A apart. Fourth-order Runge-Kutta steps of 0.25 A in the
-/// trilinear map's gradient by central differences. A line ends at the map's border, inside the surface, where the
-/// field vanishes, or after 60 A.
-/// @param positions [vertex]; @param normals [vertex] unit, outward
-std::vector<std::vector<Vec3d>> trace_field_lines(const PlacedMap& map, const std::vector<Vec3d>& positions,
-                                                  const std::vector<Vec3f>& normals, int n_lines);
-
 /// Lines as thin tubes coloured by the potential along them. nullptr if there are none.
 vtkSmartPointer<vtkProp> make_field_lines(const PlacedMap& map, const std::vector<std::vector<Vec3d>>& lines,
                                           const ColourScale& scale);
