@@ -14,8 +14,9 @@ void SeriesStates::take_source(ComparedState state, const State* given) {
   frame_ = {};
   const Molecule& molecule = source_.loaded.molecule;
   source_.take_parts(source_parts(molecule, source_.whole(), molecule, source_.whole(), options_.input));
-  surface_ = molecule;
-  set_surface_radii({&surface_}, options_.input.radii);
+  Molecule surface = molecule;
+  set_surface_radii({&surface}, options_.input.radii);
+  surface_ = std::move(surface);
 }
 
 StepInput SeriesStates::step(ComparedState frame, const State& given) {

@@ -25,6 +25,7 @@ class SeriesStates {
   /// @param given has the frame's map. @throws as add_map(), set_frame_radii()
   StepInput step(ComparedState frame, const State& given);
 
+  bool has_source() const { return surface_.size() > 0; }
   const ComparedState& source() const { return source_; }
   const ComparedState& frame() const { return frame_; }
   /// The source's molecule with the radii of its surface.

@@ -38,7 +38,7 @@ std::string reference_words(const TrajectoryStudy& study) {
 }
 
 /// Source and frames of a study in files, and how their molecules become a comparison's inputs.
-class FileStates {
+class FileStates : public StepStates {
  public:
   /// Keeps references.
   FileStates(const TrajectoryStudy& study, const Progress& progress)
@@ -77,16 +77,15 @@ class FileStates {
     return set;
   }
 
-  /// What all rows depend on.
-  const std::vector<InputFile>& inputs() const { return inputs_; }
-  const PotentialPlan& potential() const { return states_.plan(); }
+  /// With the one source, where all frames have one.
+  SeriesStates& states() { return states_; }
 
-  void step(TrajectoryRun& run, Engine& engine, const Progress& progress) {
-    const auto read = [this](StateRole role, int frame) {
-      return (role == StateRole::kSource ? first_ : targets()).read(frame, role, states_.plan());
-    };
-    compare_step(run, states_, engine, read, &source_map_, target_map_, {}, progress);
+  ComparedState read(StateRole role, std::optional<int> frame, const SeriesStates& states,
+                     const Progress& /*progress*/) override {
+    return (role == StateRole::kSource ? first_ : targets()).read(frame.value(), role, states.plan());
   }
+  const State& given(StateRole role) const override { return role == StateRole::kSource ? source_map_ : target_map_; }
+  std::vector<InputFile> inputs(const SeriesStates& /*states*/) const override { return inputs_; }
 
  private:
   MovingStateOptions moving_options() const {
@@ -163,17 +162,29 @@ void check_study(const TrajectoryStudy& study) {
   check_request(study.request, study.options, std::move(inputs), study.picture);
 }
 
-const SeriesRow* compare_step(TrajectoryRun& run, SeriesStates& states, Engine& engine, const ReadState& read,
-                              const State* source, const State& target,
-                              const std::function<std::vector<InputFile>()>& inputs, const Progress& progress) {
+TrajectorySteps::TrajectorySteps(const TrajectoryRequest& request, TrajectoryPlan plan, SeriesDescription run,
+                                 StepStates& given, SeriesStates& states)
+    : given_(given), states_(states), has_one_source_(plan.against == Reference::kOne) {
+  run_ = begin_trajectory(request, std::move(plan), std::move(run));
+}
+
+const SeriesRow* TrajectorySteps::step(Engine& engine, const Progress& progress) {
+  const auto take_source = [&](std::optional<int> frame) {
+    states_.take_source(given_.read(StateRole::kSource, frame, states_, progress), &given_.given(StateRole::kSource));
+  };
+  if (has_one_source_ && !states_.has_source()) {
+    take_source(std::nullopt);
+    run_->note_inputs(given_.inputs(states_));
+  }
   const auto sides = [&] {
-    const TrajectoryStep& step = run.next();
-    if (step.source) states.take_source(read(StateRole::kSource, *step.source), source);
-    StepInput both = states.step(read(StateRole::kTarget, step.frame), target);
-    if (inputs) both.inputs = inputs();
+    const TrajectoryStep& step = run_->next();
+    if (step.source) take_source(step.source);
+    StepInput both =
+        states_.step(given_.read(StateRole::kTarget, step.frame, states_, progress), given_.given(StateRole::kTarget));
+    both.inputs = given_.inputs(states_);
     return both;
   };
-  return run.step(engine, sides, progress);
+  return run_->step(engine, sides, progress);
 }
 
 TrajectorySummary run_trajectory(const TrajectoryStudy& study, Engine& engine, const Progress& progress) {
@@ -186,11 +197,13 @@ TrajectorySummary run_trajectory(const TrajectoryStudy& study, Engine& engine, c
   plan.reference = reference_words(study);
   plan.frames = parse_frames(study.request.frames, states.frames());
   plan.compared = parts_and_fields(plan.options);
-  const auto run = begin_trajectory(study.request, std::move(plan), description_of(study, states.potential()));
-  if (study.tell && !run->warning().empty()) study.tell(run->warning());
-  run->note_inputs(states.inputs());
-  while (!run->is_done()) states.step(*run, engine, progress);
-  return run->summary();
+  TrajectorySteps steps(study.request, std::move(plan), description_of(study, states.states().plan()), states,
+                        states.states());
+  TrajectoryRun& run = steps.run();
+  if (study.tell && !run.warning().empty()) study.tell(run.warning());
+  run.note_inputs(states.inputs(states.states()));
+  while (!run.is_done()) steps.step(engine, progress);
+  return run.summary();
 }
 
 }  // namespace espdiff

@@ -1,8 +1,10 @@
-// trajectory_study.h: the whole of a run over frames in files in one call: states, potentials, radii, steps, tables.
-// The command line and Python start here; Tcl, which gives VMD's frames one by one, takes its parts.
+// trajectory_study.h: a run over frames: states, potentials, radii, steps, tables. Of files it is one call, for the
+// command line and Python; Tcl, which gives VMD's frames one by one, takes the same steps itself.
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,17 +47,41 @@ void check_study(const TrajectoryStudy& study);
 ///         InputError (trajectories of different lengths)
 TrajectorySummary run_trajectory(const TrajectoryStudy& study, Engine& engine, const Progress& progress);
 
-/// Reads one state of a step: the source's frame, or the target's.
-using ReadState = std::function<ComparedState(StateRole role, int frame)>;
+/// Where the states of a run come from: files, or what VMD has.
+class StepStates {
+ public:
+  virtual ~StepStates() = default;
+  /// Reads a side of a step, or the one source of all frames.
+  /// @param frame  none for the one source
+  /// @param states has the source that a frame is compared with
+  virtual ComparedState read(StateRole role, std::optional<int> frame, const SeriesStates& states,
+                             const Progress& progress) = 0;
+  /// The state that has the map of what was read last.
+  virtual const State& given(StateRole role) const = 0;
+  /// Inputs that all rows depend on, as far as they were read.
+  virtual std::vector<InputFile> inputs(const SeriesStates& states) const = 0;
+};
 
-/// Compares the next frame of a run and adds its row, as TrajectoryRun::step().
-/// @param states has the source, unless each frame has one
-/// @param read   reads both sides
-/// @param source the state with the map of a frame's own source; null where all frames have one source
-/// @param target the state with the frame's map
-/// @param inputs that all rows depend on, once the frame was read; may be empty
-const SeriesRow* compare_step(TrajectoryRun& run, SeriesStates& states, Engine& engine, const ReadState& read,
-                              const State* source, const State& target,
-                              const std::function<std::vector<InputFile>()>& inputs, const Progress& progress);
+/// A run over frames, one step after the other.
+class TrajectorySteps {
+ public:
+  /// Begins the run, or continues it, as begin_trajectory(). Keeps references.
+  /// @param plan   with its frames, source, options and parts
+  /// @param run    with its molecules and potentials in words
+  /// @param states may have the one source of all frames; otherwise the first step takes it
+  TrajectorySteps(const TrajectoryRequest& request, TrajectoryPlan plan, SeriesDescription run, StepStates& given,
+                  SeriesStates& states);
+
+  TrajectoryRun& run() { return *run_; }
+  /// Compares the next frame and adds its row, as TrajectoryRun::step(). What fails about the one source of all frames
+  /// ends the run, whatever is to be done about errors of frames.
+  const SeriesRow* step(Engine& engine, const Progress& progress);
+
+ private:
+  StepStates& given_;
+  SeriesStates& states_;
+  bool has_one_source_;
+  std::unique_ptr<TrajectoryRun> run_;
+};
 
 }  // namespace espdiff

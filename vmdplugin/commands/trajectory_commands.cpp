@@ -93,7 +93,7 @@ Tcl_Obj* trajectory(const Call& call) {
   if (!source_file.empty()) run.reference_files = {source_file};
   if (!run.files.empty()) object->files = std::make_unique<FrameFiles>(run.files);
   if (!source_file.empty()) object->source_files = std::make_unique<FrameFiles>(std::vector{source_file});
-  object->run = begin_trajectory(request, std::move(plan), std::move(run));
+  object->steps = std::make_unique<TrajectorySteps>(request, std::move(plan), std::move(run), *object, object->states);
   return to_obj(call.handles.add(object));
 }
 
@@ -109,8 +109,8 @@ std::shared_ptr<TrajectoryObject> resting(const Call& call) {
 /// all frames have one.
 Tcl_Obj* trajectory_next(const Call& call) {
   const auto object = resting(call);
-  if (object->run->is_done()) return Tcl_NewObj();
-  const TrajectoryStep& step = object->run->next();
+  if (object->run().is_done()) return Tcl_NewObj();
+  const TrajectoryStep& step = object->run().next();
   return to_dict({{"frame", to_obj(step.frame)},
                   {"reference", to_obj(step.reference)},
                   {"source", step.source ? to_obj(*step.source) : Tcl_NewObj()}});
@@ -128,56 +128,11 @@ bool takes_everything(const State& state) {
   return state.potential->method == PotentialMethod::kPme;
 }
 
-/// Reads a side: a frame of the run's file through its one open text, or what Tcl gave.
-ComparedState read_side(TrajectoryObject& object, StateRole role, std::optional<int> frame, const Progress& progress) {
-  const CompareOptions& options = object.computation.options;
-  const bool is_source = role == StateRole::kSource;
-  const StatePtr& given = is_source ? object.source : object.target;
-  const LoadedState& source = object.states.source().loaded;
-  FrameFiles* const files =
-      is_source && object.against == Reference::kSame ? object.source_files.get() : object.files.get();
-  if (!frame || files == nullptr || given->path.empty())
-    return StateReader({options, {}, true}, {given}, progress).read(role, is_source ? nullptr : &source.molecule);
-  ComparedState state;
-  state.role = to_string(role);
-  static const LoadedState none;
-  state.loaded = load_frame_state(*files, *frame, given->structure, is_source ? none : source, takes_everything(*given),
-                                  options.input, progress, role);
-  if (is_source && given->potential)
-    state.loaded.preparation =
-        charge_molecule(state.loaded.molecule, options.input, {}, state.loaded.charge_files, progress);
-  return state;
-}
-
-/// The inputs of all rows: the one source, and a map of all frames.
-std::vector<InputFile> common_inputs(const TrajectoryObject& object) {
-  std::vector<InputFile> inputs;
-  const ComparedState& source = object.states.source();
-  if (object.against == Reference::kOne) {
-    inputs = source.inputs;
-    inputs.insert(inputs.end(), source.map_inputs.begin(), source.map_inputs.end());
-  }
-  const std::vector<InputFile>& of_map = object.states.frame().map_inputs;
-  if (object.one_map) inputs.insert(inputs.end(), of_map.begin(), of_map.end());
-  return inputs;
-}
-
-/// Reads, compares and writes one frame, on the worker's thread.
+/// Compares and writes one frame, on the worker's thread.
 void run_step(TrajectoryObject& object, const Progress& progress) {
   object.row.reset();
-  TrajectoryRun& run = *object.run;
   if (object.engine == nullptr) object.engine = engine_for(object.computation);
-  // A failure of the common source ends the run, even with -on-error skip.
-  if (object.against == Reference::kOne && object.source != nullptr) {
-    object.states.take_source(read_side(object, StateRole::kSource, std::nullopt, progress), object.source.get());
-    run.note_inputs(common_inputs(object));
-    object.source = nullptr;  // once
-  }
-  const auto read = [&](StateRole role, int frame) { return read_side(object, role, frame, progress); };
-  const SeriesRow* const row = compare_step(
-      run, object.states, *object.engine, read, object.source.get(), *object.target,
-      [&] { return common_inputs(object); }, progress);
-  if (row != nullptr) object.row = *row;
+  if (const SeriesRow* const row = object.steps->step(*object.engine, progress)) object.row = *row;
 }
 
 /// The sides of a frame: TARGET, and SOURCE unless all frames have one.
@@ -185,6 +140,8 @@ Tcl_Obj* trajectory_step(const Call& call) {
   const auto object = resting(call);
   if ((object->against != Reference::kOne) != (call.arguments.size() > 2))
     throw InputError("a source is given for each frame, unless all frames have one");
+  if (object->against == Reference::kOne && object->source == nullptr)
+    throw InputError(call.text(0) + " has no source yet; give it by trajectory_source");
   object->target = shared_endpoint(call.arguments[1], "target");
   if (object->against != Reference::kOne) object->source = shared_endpoint(call.arguments[2], "source");
   object->job = Worker::instance().submit([keep = std::weak_ptr<TrajectoryObject>(object)](const Progress& progress) {
@@ -197,7 +154,7 @@ Tcl_Obj* trajectory_step(const Call& call) {
 Tcl_Obj* trajectory_skip(const Call& call) {
   const auto object = resting(call);
   object->row.reset();
-  if (const SeriesRow* const row = object->run->skip(error_of_class(call.text(2), call.text(1)))) object->row = *row;
+  if (const SeriesRow* const row = object->run().skip(error_of_class(call.text(2), call.text(1)))) object->row = *row;
   return nullptr;
 }
 
@@ -215,19 +172,19 @@ Tcl_Obj* trajectory_columns(const Call&) { return to_list(series_columns()); }
 
 Tcl_Obj* trajectory_summary(const Call& call) {
   const auto object = resting(call);
-  const TrajectorySummary s = object->run->summary();
+  const TrajectorySummary s = object->run().summary();
   return to_dict({{"frames", to_obj(s.n_frames)},
                   {"rows", to_obj(s.n_rows)},
                   {"skipped", to_obj(s.n_skipped)},
                   {"resumed", to_obj(s.n_resumed)},
-                  {"csv", to_obj(object->run->file().path())}});
+                  {"csv", to_obj(object->run().file().path())}});
 }
 
 /// Reason why the first mapping of a resumed run starts from the source; usually empty.
-Tcl_Obj* trajectory_warning(const Call& call) { return to_obj(resting(call)->run->warning()); }
+Tcl_Obj* trajectory_warning(const Call& call) { return to_obj(resting(call)->run().warning()); }
 
 /// Ends the run between two frames; throws the error of a cancelled run.
-Tcl_Obj* trajectory_cancelled(const Call& call) { throw resting(call)->run->cancelled(); }
+Tcl_Obj* trajectory_cancelled(const Call& call) { throw resting(call)->run().cancelled(); }
 
 /// OPTION TEXT N NOW OF: a list of frames; NOW is empty if there is no current frame.
 Tcl_Obj* frames(const Call& call) {
@@ -265,6 +222,41 @@ Tcl_Obj* csv_text(const Call& call) {
 }
 
 }  // namespace
+
+/// A frame of the run's file through its one open text, or what Tcl gave.
+ComparedState TrajectoryObject::read(StateRole role, std::optional<int> frame, const SeriesStates& read_states,
+                                     const Progress& progress) {
+  const CompareOptions& options = computation.options;
+  const bool is_source = role == StateRole::kSource;
+  const StatePtr& state_given = is_source ? source : target;
+  const LoadedState& reference = read_states.source().loaded;
+  FrameFiles* const frames = is_source && against == Reference::kSame ? source_files.get() : files.get();
+  if (!frame || frames == nullptr || state_given->path.empty())
+    return StateReader({options, {}, true}, {state_given}, progress)
+        .read(role, is_source ? nullptr : &reference.molecule);
+  ComparedState state;
+  state.role = to_string(role);
+  static const LoadedState none;
+  state.loaded = load_frame_state(*frames, *frame, state_given->structure, is_source ? none : reference,
+                                  takes_everything(*state_given), options.input, progress, role);
+  if (is_source && state_given->potential)
+    state.loaded.preparation =
+        charge_molecule(state.loaded.molecule, options.input, {}, state.loaded.charge_files, progress);
+  return state;
+}
+
+/// The one source, and a map of all frames.
+std::vector<InputFile> TrajectoryObject::inputs(const SeriesStates& read_states) const {
+  std::vector<InputFile> all;
+  const ComparedState& one = read_states.source();
+  if (against == Reference::kOne) {
+    all = one.inputs;
+    all.insert(all.end(), one.map_inputs.begin(), one.map_inputs.end());
+  }
+  const std::vector<InputFile>& of_map = read_states.frame().map_inputs;
+  if (one_map) all.insert(all.end(), of_map.begin(), of_map.end());
+  return all;
+}
 
 std::vector<Command> trajectory_commands() {
   return {{"trajectory", 2, 2, "plan options", trajectory},

@@ -16,7 +16,7 @@
 #include "study/matrix_study.h"
 #include "study/pair_study.h"
 #include "study/series_states.h"
-#include "trajectory/trajectory.h"
+#include "study/trajectory_study.h"
 #include "vmdplugin/bridge/worker.h"
 #include "vmdplugin/values/endpoint.h"
 
@@ -70,18 +70,25 @@ struct MatrixObject : Object {
 };
 
 /// Frames compared one after the other; rows in a file.
-struct TrajectoryObject : Object {
+struct TrajectoryObject : Object, StepStates {
   const char* kind() const override { return "trajectory"; }
+  TrajectoryRun& run() const { return steps->run(); }
+
+  ComparedState read(StateRole role, std::optional<int> frame, const SeriesStates& states,
+                     const Progress& progress) override;
+  const State& given(StateRole role) const override { return role == StateRole::kSource ? *source : *target; }
+  std::vector<InputFile> inputs(const SeriesStates& states) const override;
+
   Computation computation;
   Reference against = Reference::kOne;
   bool one_map = false;  ///< the target's map is the same for all frames
   /// Of a run over a file's models, and against those of another.
   std::unique_ptr<FrameFiles> files, source_files;
-  StatePtr source, target;
+  StatePtr source, target;  ///< of the next step, as Tcl gave them
   SeriesStates states{computation.options};
-  std::unique_ptr<Engine> engine;      // made by the first step's job
-  std::unique_ptr<TrajectoryRun> run;  // destroyed before what it points to
-  std::optional<SeriesRow> row;        ///< that the last step added
+  std::unique_ptr<Engine> engine;          // made by the first step's job
+  std::unique_ptr<TrajectorySteps> steps;  // destroyed before what it points to
+  std::optional<SeriesRow> row;            ///< that the last step added
 };
 
 /// Potentials of frames, one after the other, and their average.
