@@ -2,7 +2,7 @@
 //
 // On this machine:
 //     nextflow run matrix.nf --list variants.csv --output results --parts 16
-// In Slurm's queue: the same with -process.executor slurm. `-resume` goes on with the parts that are complete.
+// In Slurm's queue: the same with -process.executor slurm. `-resume` keeps the parts that are complete.
 // variants.csv is a list of `espdiff matrix --list`; --options '--potential pb' goes to espdiff. results/matrix.csv and
 // results/matrix.json have the bytes of one process.
 

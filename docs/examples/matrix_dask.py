@@ -6,7 +6,7 @@ On this machine, with 4 processes:
 In Slurm's queue, 16 jobs of 4 cores each (dask-jobqueue submits them by sbatch):
     python matrix_dask.py --slurm --workers 16 --cores 4 --memory 8GB --queue short -o matrix *.pqr --potential pb
 
-The files have the bytes of `espdiff matrix`. Was it interrupted? The same line with --resume goes on. Options that are
+The files have the bytes of `espdiff matrix`. Was it interrupted? The same line with --resume continues. Options that are
 not listed by --help are those of `espdiff matrix`.
 """
 
@@ -27,7 +27,7 @@ def parse():
     parser.add_argument("variants", nargs="+", help="structure files: PQR, PDB, mmCIF")
     parser.add_argument("-o", "--output", required=True, help="prefix of the results, in a folder that all nodes see")
     parser.add_argument("--workers", type=int, default=2, help="processes, or jobs in the queue")
-    parser.add_argument("--resume", action="store_true", help="go on with what an interrupted run has left")
+    parser.add_argument("--resume", action="store_true", help="continue what an interrupted run has left")
     parser.add_argument("--slurm", action="store_true", help="submit the workers by sbatch")
     parser.add_argument("--queue", help="partition of Slurm")
     parser.add_argument("--cores", type=int, default=4, help="of each job")

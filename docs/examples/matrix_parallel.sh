@@ -2,7 +2,7 @@
 # matrix_parallel.sh: a matrix by several processes on one machine, run by GNU parallel.
 #
 # Usage: matrix_parallel.sh PROCESSES OUT VARIANT...      (all else: in $OPTIONS, such as "--potential pme")
-# Interrupted? The same line again goes on where each process stopped.
+# Interrupted? The same line again continues where each process stopped.
 set -eu
 processes="$1" out="$2"
 shift 2

@@ -4,7 +4,7 @@
 # Submit the parts, and the merge behind them:
 #     parts=$(sbatch --parsable --array=1-16 matrix_slurm.sh part variants.csv matrix)
 #     sbatch --dependency="afterok:$parts" matrix_slurm.sh merge variants.csv matrix
-# variants.csv is a list of `espdiff matrix --list`. A task that was preempted or ran out of time goes on where it stopped
+# variants.csv is a list of `espdiff matrix --list`. A task that was preempted or ran out of time continues where it stopped
 # when it is submitted again.
 #SBATCH --cpus-per-task=4
 #SBATCH --time=01:00:00
