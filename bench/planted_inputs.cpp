@@ -44,12 +44,12 @@ struct Outcome {
 };
 
 Outcome check(const MoleculePair& pair) {
-  CompareResult result;
+  AlignedStates aligned;
   CompareOptions options;
   std::vector<Warning> warnings;
   Outcome outcome;
   try {
-    align(pair.first, pair.second, options, result);
+    aligned = align(pair.first, pair.second, options);
   } catch (const Error& error) {
     return {true, true, true, {std::string("refused: ") + error.what()}, 0};
   }
@@ -59,8 +59,9 @@ Outcome check(const MoleculePair& pair) {
   check_geometry("target", target, warnings);
   check_charges("source", source, warnings);
   check_charges("target", target, warnings);
-  check_paired_charges(source, target, result, warnings);
-  for (Warning& warning : composition_warnings(pair.first, pair.second, {}, result)) warnings.push_back(warning);
+  check_paired_charges(source, target, aligned.alignment.pairing, warnings);
+  for (Warning& warning : composition_warnings(pair.first, pair.second, {}, aligned.alignment, {}, {}))
+    warnings.push_back(warning);
   outcome.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
   for (const Warning& warning : warnings) {
     outcome.refuses = outcome.refuses || warning.refuses;
