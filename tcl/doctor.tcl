@@ -28,8 +28,8 @@ namespace eval ::espdiff {
             lappend items [list "PME on [dict get $back_end name]" $state [dict get $back_end fourier description]]
         }
         set build [core::build]
-        foreach {part what} {gemmi "PDB and mmCIF files" vtk "VTI maps"} {
-            if {[dict get $build $part]} { lappend items [list $what ok "read ($part)"]; continue }
+        foreach {part what} {gemmi "PDB and mmCIF files" HDF5 ensembles} {
+            if {[dict get $build [string tolower $part]]} { lappend items [list $what ok "by $part"]; continue }
             lappend items [list $what missing "this build has no $part; install its development package, and build\
                 again"]
         }

@@ -2,6 +2,7 @@
 
 namespace eval ::espdiff {
     proc ensemble {options groups} {
+        if {![dict get [core::build] hdf5]} { core::ensemble {} {} }  ;# which says why there are none
         set replicates {}
         set frames {}
         if {[dict get $options from] eq ""} {

@@ -85,11 +85,7 @@ int run(int argc, char** argv) {
                                {"espdiff wild.pdb mutant.pdb", "espdiff render wild_mutant -o difference.png"},
                                "merge plot surface potential verify completion man"});
   std::vector<espdiff::cli::Verb> verbs = {espdiff::cli::add_compare(app),    espdiff::cli::add_trajectory(app),
-                                           espdiff::cli::add_matrix(app),
-
-#ifdef ESPDIFF_HAVE_HDF5
-                                           espdiff::cli::add_ensemble(app),
-#endif
+                                           espdiff::cli::add_matrix(app),     espdiff::cli::add_ensemble(app),
                                            espdiff::cli::add_merge(app),      espdiff::cli::add_plot(app),
                                            espdiff::cli::add_surface(app),    espdiff::cli::add_potential(app),
                                            espdiff::cli::add_prepare(app),    espdiff::cli::add_render(app),

@@ -31,9 +31,7 @@ Verb add_compare(CLI::App& app);
 Verb add_trajectory(CLI::App& app);
 Verb add_matrix(CLI::App& app);
 Verb add_merge(CLI::App& app);
-#ifdef ESPDIFF_HAVE_HDF5
 Verb add_ensemble(CLI::App& app);
-#endif
 Verb add_complementarity(CLI::App& app);
 Verb add_export(CLI::App& app);
 Verb add_fields(CLI::App& app);

@@ -1,21 +1,25 @@
 // ensemble.cpp: `espdiff ensemble --group NAME FILE... -o OUT`.
+#include "base/error.h"
+#include "cli/verbs.h"
+#ifdef ESPDIFF_HAVE_HDF5
 #include <cstdio>
 #include <iostream>
 
-#include "base/error.h"
 #include "base/formatted.h"
 #include "base/text/printable.h"
 #include "cli/map_options.h"
 #include "cli/options.h"
-#include "cli/verbs.h"
 #include "cli/words/help.h"
 #include "engine/engine.h"
 #include "ensemble/ensemble_study.h"
 #include "ensemble/file/ensemble_file.h"
 #include "ensemble/result/ensemble_table.h"
 #include "matrix/matrix_run.h"
+#endif
 
 namespace espdiff::cli {
+
+#ifdef ESPDIFF_HAVE_HDF5
 namespace {
 
 struct EnsembleArguments {
@@ -147,5 +151,18 @@ Verb add_ensemble(CLI::App& app) {
              "espdiff merge part.shard-*-of-8.h5 -o all && espdiff ensemble --from all.h5 -o all"}});
   return {parser, [a](const Context& context) { return ensemble_verb(*a, context); }};
 }
+
+#else
+
+Verb add_ensemble(CLI::App& app) {
+  CLI::App* parser = app.add_subcommand("ensemble", "Compare two groups of simulations (not in this build)");
+  parser->allow_extras();
+  return {parser, [](const Context&) -> int {
+            throw InputError(
+                "this build has no ensembles: HDF5 was not found when it was configured (Debian: libhdf5-dev)");
+          }};
+}
+
+#endif
 
 }  // namespace espdiff::cli
