@@ -1,11 +1,14 @@
 // matrix_table.cpp: prints the summary of a matrix.
+#include "matrix/matrix_table.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
-
-#include "matrix/write_matrix.h"
+#include <string>
+#include <vector>
 
 #include "base/formatted.h"
+#include "matrix/matrix_summary.h"
 #include "matrix/write_through_template.h"
 
 namespace espdiff {

@@ -1,8 +1,7 @@
-// write_matrix.h: writes a matrix as files and as a table.
+// write_matrix.h: writes a matrix as files.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -30,8 +29,5 @@ std::vector<std::string> write_matrix(const std::string& output_prefix, const Ma
 /// (metric, linkage, merges [left, right, distance, number of variants], order); hodgkin: the clustering by Hodgkin's
 /// index and the correlation of its distances with those of `metric` (null without potentials).
 nlohmann::ordered_json matrix_json(const Matrix& matrix, std::size_t metric);
-
-/// Prints range, asymmetry, nearest and farthest pair, groups, and pairs that are not trustworthy; at most 100 columns.
-void print_matrix(std::ostream& out, const Matrix& matrix, std::size_t metric);
 
 }  // namespace espdiff

@@ -17,6 +17,7 @@
 #include "ensemble/result/template_values.h"
 #include "io/files/read_csv.h"
 #include "matrix/made_variants.h"
+#include "matrix/matrix_table.h"
 #include "matrix/write_matrix.h"
 #include "statistics/surface/mesh_graph.h"
 #include "support/text.h"

@@ -12,7 +12,7 @@
 #include "field/given_values.h"
 #include "io/files/read_csv.h"
 #include "matrix/made_variants.h"
-#include "matrix/write_matrix.h"
+#include "matrix/matrix_table.h"
 #include "options/options.h"
 #include "support/test_data.h"
 #include "support/text.h"

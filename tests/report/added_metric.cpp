@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "certificate/result.h"
+#include "matrix/matrix_table.h"
 #include "matrix/write_matrix.h"
 #include "options/options.h"
 #include "report/compare_json.h"

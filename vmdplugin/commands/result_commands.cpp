@@ -8,6 +8,7 @@
 #include "io/files/atomic_file.h"
 #include "io/files/check_outputs.h"
 #include "mapping/build_surface.h"
+#include "matrix/matrix_table.h"
 #include "matrix/write_matrix.h"
 #include "page/result_page.h"
 #include "plot/automatic_range.h"

@@ -10,7 +10,7 @@
 #include "cli/verbs.h"
 #include "cli/words/help.h"
 #include "engine/engine.h"
-#include "matrix/write_matrix.h"
+#include "matrix/matrix_table.h"
 #include "options/options.h"
 #include "study/matrix_settings.h"
 #include "study/matrix_study.h"

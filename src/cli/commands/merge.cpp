@@ -8,7 +8,7 @@
 #include "ensemble/ensemble_run.h"
 #include "ensemble/file/ensemble_file.h"
 #endif
-#include "matrix/write_matrix.h"
+#include "matrix/matrix_table.h"
 #include "study/matrix_settings.h"
 #include "study/matrix_study.h"
 
