@@ -19,8 +19,8 @@ struct DebyeHueckel {
 ///
 ///     phi(x) = scale sum_i q_i exp(-kappa (r - a_i)) / ((1 + kappa a_i) r),   r = |x - x_i|, a_i the atom's radius
 ///
-/// (APBS' `mdh`). The sum is evaluated every 2.5 A on each face,
-/// or as the law says, and interpolated by cubics in between.
+/// (APBS' `mdh`). The sum is evaluated every `every_A` on each face, and interpolated by cubics in
+/// between.
 void set_debye_hueckel_border(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, const DebyeHueckel& law,
                               Buffer<float>& phi);
 

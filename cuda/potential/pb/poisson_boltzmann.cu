@@ -72,7 +72,7 @@ ESPDIFF_MULTIVERSION void fill_from_wider(const WiderSamples& given, int nx, int
 enum class Points { kAll, kBorder };
 
 /// Sets points of phi to samples of a wider map. As a start its error at the surface is a few per cent, although that
-/// next to charges makes its residual larger than that of zero: three cycles less.
+/// next to charges makes its residual larger than that of zero: up to three cycles less.
 void set_from_wider(const MapGrid& around, const Lattice& lattice, Points points, Buffer<float>& phi) {
   WiderSamples wider{raw(around.values), static_cast<std::size_t>(around.lattice.size[0]), 0, {}};
   wider.plane = wider.row * static_cast<std::size_t>(around.lattice.size[1]);

@@ -71,9 +71,8 @@ class PlaneSweeps;
 class Multigrid {
  public:
   /// @param finest with the arrays of its faces; must outlive this object
-  /// @param fewest_packed points of a coarse grid whose faces are packed if the finest grid's coefficients are; arrays
-  /// of
-  ///                      fewer stay in the caches, where reading them takes less time than unpacking (CPU)
+  /// @param fewest_packed points of a coarse grid whose faces are packed if the finest grid's coefficients are; smaller
+  ///                      arrays stay in the caches, where reading them takes less time than unpacking (CPU)
   explicit Multigrid(const GridOperator& finest, std::size_t fewest_packed = std::size_t{1} << 20);
   ~Multigrid();
   /// z = B r with a symmetric B that approximates the inverse of A. @returns r . z
