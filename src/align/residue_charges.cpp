@@ -97,9 +97,9 @@ std::vector<int> charges_of_state(const std::string& state) {
   return found == table.end() ? std::vector<int>() : found->second;
 }
 
-std::optional<int> charge_of_group(const std::string& residue_name) {
-  const std::optional<int> ion = find_in(ions(), residue_name);
-  return ion ? ion : find_in(groups(), residue_name);
+std::optional<int> charge_of_group(const std::string& residue_name, std::size_t n_atoms) {
+  return is_ion_name(residue_name) ? (n_atoms == 1 ? find_in(ions(), residue_name) : std::nullopt)
+                                   : find_in(groups(), residue_name);
 }
 
 bool is_ion_name(const std::string& residue_name) { return ions().count(residue_name) > 0; }

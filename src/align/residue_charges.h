@@ -1,6 +1,7 @@
 // residue_charges.h: the net charges that residues and ions of known names can have.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,9 +19,10 @@ std::vector<int> possible_charges(const std::string& residue_name);
 /// @returns empty where the hydrogens do not say it
 std::vector<int> charges_of_state(const std::string& state);
 
-/// The usual charge of an ion of this name, or of a small group or cofactor at pH 7: 2 for ZN, -2 for SO4.
+/// The usual charge of an ion of this name, or of a small group or cofactor at pH 7: 2 for ZN, -2 for SO4. Ions have
+/// one atom: CO of two is carbon monoxide.
 /// @returns empty for names that are not known
-std::optional<int> charge_of_group(const std::string& residue_name);
+std::optional<int> charge_of_group(const std::string& residue_name, std::size_t n_atoms);
 
 /// Whether the name is that of an ion of one atom.
 bool is_ion_name(const std::string& residue_name);

@@ -264,7 +264,7 @@ void check_ions(const std::string& role, const ResidueView& view, std::vector<Wa
     const Residue& residue = view.molecule->residues[r];
     if (view.kinds[r] != ResidueKind::kOther || view.atoms[r].size() != 1 || !is_ion_name(residue.name)) continue;
     const double q = static_cast<double>(view.molecule->charges[view.atoms[r].front()]);
-    const int usual = *charge_of_group(residue.name);
+    const int usual = *charge_of_group(residue.name, 1);
     // Models of bonded metals give part of the charge to the neighbours; iron and copper have two oxidation states.
     if (q * usual > 0 && std::fabs(q) < std::abs(usual) + 1 + kWholeCharge) continue;
     wrong.add(residue, elementary_charges(q) + ", usually " + std::to_string(usual));

@@ -53,7 +53,8 @@ struct ComposedSide {
   double charge(std::size_t residue, const std::vector<std::size_t>& atoms) const {
     if (view.molecule->charges.empty()) {
       const std::string& name = view.molecule->residues[residue].name;
-      const auto known = atoms.size() == view.atoms[residue].size() ? charge_of_group(name) : std::nullopt;
+      const auto known =
+          atoms.size() == view.atoms[residue].size() ? charge_of_group(name, atoms.size()) : std::nullopt;
       return known ? *known : std::numeric_limits<double>::quiet_NaN();
     }
     double sum = 0;

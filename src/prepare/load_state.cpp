@@ -72,7 +72,7 @@ std::vector<LeftOutResidue> left_out_residues(const Molecule& whole, const std::
       left.positions.push_back(whole.positions[i]);
       if (!whole.charges.empty()) left.charge += static_cast<double>(whole.charges[i]);
     }
-    const std::optional<int> known = charge_of_group(left.residue.name);
+    const std::optional<int> known = charge_of_group(left.residue.name, gone.size());
     if (whole.charges.empty() && known && gone.size() == view.atoms[r].size()) left.charge = *known;
     residues.push_back(std::move(left));
   }

@@ -35,11 +35,13 @@ TEST_CASE("residue_letter: PARSE's names of protonation states are those of thei
 }
 
 TEST_CASE("charge_of_group: ions and common groups") {
-  CHECK(charge_of_group("ZN") == 2);
-  CHECK(charge_of_group("CL") == -1);
-  CHECK(charge_of_group("SO4") == -2);
-  CHECK(charge_of_group("HEM") == -2);
-  CHECK_FALSE(charge_of_group("XYZ").has_value());
+  CHECK(charge_of_group("ZN", 1) == 2);
+  CHECK(charge_of_group("CL", 1) == -1);
+  CHECK(charge_of_group("SO4", 5) == -2);
+  CHECK(charge_of_group("HEM", 43) == -2);
+  CHECK_FALSE(charge_of_group("XYZ", 3).has_value());
+  CHECK(charge_of_group("CO", 1) == 2);
+  CHECK_FALSE(charge_of_group("CO", 2).has_value());  // carbon monoxide
   CHECK(is_ion_name("NA"));
   CHECK_FALSE(is_ion_name("SO4"));
 }

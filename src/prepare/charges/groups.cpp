@@ -31,9 +31,10 @@ bool is_additive(const std::string& name) {
   return names.count(name) > 0;
 }
 
-bool is_gas(const std::string& name) {
+/// Carbon monoxide is CO in older files, which is cobalt's name as an ion.
+bool is_gas(const std::string& name, std::size_t n_atoms) {
   static const std::set<std::string_view> names = {"OXY", "CMO", "NO", "NMO", "N2", "XE", "KR", "AR"};
-  return names.count(name) > 0;
+  return names.count(name) > 0 || (name == "CO" && n_atoms == 2);
 }
 
 bool is_haem(const std::string& name) { return name == "HEM" || name == "HEC"; }
@@ -165,7 +166,7 @@ void charge_other_ligand(Groups& groups, Molecule& group, const Molecule& molecu
                                         : " for the file's " + std::to_string(ligand.n_hydrogens_replaced)) +
       ", by Open Babel (Gasteiger's charges, pH " + formatted("%g", ph) +
       (agrees ? "; bonds agree with the file's formula)" : ")"));
-  const std::optional<int> usual = charge_of_group(group.residues.front().name);
+  const std::optional<int> usual = charge_of_group(group.residues.front().name, group.size());
   // Gasteiger's charges of phosphates do not sum up to the whole number.
   const double whole = usual ? *usual : std::round(ligand.net_charge);
   const auto n = static_cast<double>(group.size());
@@ -222,7 +223,7 @@ std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vect
     if (kinds[r] != ResidueKind::kOther) continue;
     if (is_additive(name)) {
       sources[r] = GroupSource::kAdditive;
-    } else if (is_gas(name)) {
+    } else if (is_gas(name, atoms[r].size())) {
       sources[r] = GroupSource::kGas;
     } else if (atoms[r].size() == 1 && ion_parameters(name, molecule.atoms[atoms[r].front()].element)) {
       sources[r] = GroupSource::kIon;
@@ -261,7 +262,7 @@ Groups charge_groups(const Molecule& molecule, const std::vector<GroupSource>& s
       continue;
     }
     if (sources[r] == GroupSource::kAdditive || sources[r] == GroupSource::kTorn) {
-      const std::optional<int> charge = charge_of_group(residue.name);
+      const std::optional<int> charge = charge_of_group(residue.name, group.size());
       groups.additives.push_back({residue, group.atoms, group.positions, charge ? *charge : kNaN});
       continue;
     }

@@ -44,7 +44,7 @@ std::optional<IonParameters> ion_parameters(const std::string& residue_name, con
   // Hydroxide, whose hydrogen no crystal shows.
   if (residue_name == "OH" && symbol == "O") return IonParameters{-1, element_radius("O")};
   const IonRow* usual = nullptr;
-  const std::optional<int> named = is_ion_name(residue_name) ? charge_of_group(residue_name) : std::nullopt;
+  const std::optional<int> named = is_ion_name(residue_name) ? charge_of_group(residue_name, 1) : std::nullopt;
   for (const IonRow& row : kIonRows) {
     if (row.element != symbol) continue;
     if (usual == nullptr) usual = &row;
