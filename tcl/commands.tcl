@@ -283,16 +283,6 @@ namespace eval ::espdiff {
             {-sel text all "Atoms whose charges are included"}
             {-updatesel boolean 0 "Select again in each frame, instead of in the first only"}
             {-frames text now "now, all, a frame, begin:end or begin:step:end; see Frames"}
-            {-method choice pme "pme: particle-mesh Ewald, as PMEPot computes it. pb: in salt water, by the\
-                Poisson-Boltzmann equation. coulomb: point charges, isolated, for small molecules" {pme pb coulomb}}
-            {-cell text {} "Cell of all frames: {{ox oy oz} {ax ay az} {bx by bz} {cx cy cz}}, o its centre; default:\
-                each frame's own, otherwise a box around the atoms"}
-            {-xscfile file {} "Cell of all frames from a NAMD .xsc file"}
-            {-align choice none "Superpose each frame on the first by these atoms; the average then follows the\
-                molecule" {none all backbone ca}}
-            {-averaging choice mean "mean: one map, the mean over the frames; each: a map for each frame, FILE.0000.dx\
-                and so on, by frame number" {mean each}}
-            {-block count 1 "Frames in a block, for the error bar"}
             {-variance boolean 0 "Also make the variance over the frames, as a data set or FILE.variance.dx"}
             {-error boolean 0 "Also make the standard error of the mean from the blocks, as a data set or\
                 FILE.error.dx"}
@@ -301,7 +291,7 @@ namespace eval ::espdiff {
             {-device device auto "Where to compute: auto takes a GPU if one works, cuda:1 the second one"}
             {-threads count 0 "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it"}
             {-progress command {} "Called as CMD stage fraction; `break` from it cancels"}
-        } $replacing] \
+        } [study_options potential] $replacing] \
         summary {Computes the electrostatic potential of a molecule's charges, by PME in the cell of each frame, or its
             mean over frames. Needs VMD; options shared with PMEPot have its names and meanings. A comparison does
             not need this command: `map pme` computes the maps itself.} \

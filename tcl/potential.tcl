@@ -202,7 +202,7 @@ namespace eval ::espdiff {
         }
         core::check_outputs [concat [named_files [list mol $mol]] [list [dict get $options xscfile]]] $outputs \
             [dict get $options overwrite]
-        set handle [core::potential [dict merge [potential_core_options $options] [list each $each]]]
+        set handle [core::potential [potential_core_options $options]]
         finally {
             set begun [clock milliseconds]
             set done 0
@@ -243,20 +243,12 @@ namespace eval ::espdiff {
     }
 
     proc potential_core_options {options} {
-        set core {}
-        set xsc [dict get $options xscfile]
-        if {$xsc ne ""} {
-            if {[dict get $options cell] ne ""} {
-                fail "espdiff potential: -cell and -xscfile were given; leave one out"
-            }
-            dict set options cell [core::xsc_cell $xsc]
-        }
-        foreach key {cell align block method device threads} { dict set core $key [dict get $options $key] }
-        if {[dict get $core cell] eq ""} { dict unset core cell }
+        set core [study_values potential $options]
+        foreach key {device threads} { dict set core $key [dict get $options $key] }
         dict for {option key} [potential_option_keys] {
             if {[dict get $options $option] ne ""} { dict set core $key [dict get $options $option] }
         }
-        return [pme_core_options $core]
+        return $core
     }
 
     proc potential_frame {mol frame charges options} {

@@ -79,9 +79,21 @@ std::unique_ptr<Engine> make_engine(const DeviceArguments& arguments) {
 }
 
 void add_structure_options(CLI::App& parser, StructureOptions& options) {
-  parser.add_flag("!--no-hetero", options.include_hetero, "Ignore HETATM records (ligands, ions)")->group("Molecules");
-  parser.add_flag("--water", options.include_water, "Keep water molecules, which are removed by default")
-      ->group("Molecules");
+  using Rows = RowsOf<StructureOptions>;
+  static const std::vector<Rows::Row> all{
+      Rows::boolean(
+          "hetero", kStructureGroup, [](auto& o) -> auto& { return o.include_hetero; },
+          "Read HETATM records (ligands, ions)"),
+      Rows::boolean(
+          "water", kStructureGroup, [](auto& o) -> auto& { return o.include_water; }, "Keep water molecules")};
+  add_rows(parser, all, options);
+}
+
+void add_model_option(CLI::App& parser, StructureOptions& options) {
+  using Rows = RowsOf<StructureOptions>;
+  static const std::vector<Rows::Row> all{Rows::count(
+      "model", kStructureGroup, {1}, [](auto& o) -> auto& { return o.model; }, "Model of a multi-model file, from 1")};
+  add_rows(parser, all, options);
 }
 
 void add_plugins_option(CLI::App& parser, std::string& folder, const std::string& group) {
@@ -171,8 +183,8 @@ void add_overwrite(CLI::App& parser, bool& overwrite) {
   parser.add_flag("--overwrite", overwrite, "Replace files of these names, if there are any");
 }
 
-void add_range_of(CLI::App& parser, std::vector<std::string>& others) {
-  parser
+CLI::Option* add_range_of(CLI::App& parser, std::vector<std::string>& others) {
+  return parser
       .add_option("--range-of", others,
                   "One scale for a study: the widest automatic range of this result and of these, each by its prefix "
                   "or one of its files")

@@ -30,7 +30,10 @@ struct DeviceArguments {
 void add_device_options(CLI::App& parser, DeviceArguments& arguments);
 std::unique_ptr<Engine> make_engine(const DeviceArguments& arguments);
 
+/// --no-hetero, and --water or --no-water, whichever changes what `options` are.
 void add_structure_options(CLI::App& parser, StructureOptions& options);
+/// --model, of verbs that read one model.
+void add_model_option(CLI::App& parser, StructureOptions& options);
 /// --plugins, of commands that read trajectories.
 void add_plugins_option(CLI::App& parser, std::string& folder, const std::string& group);
 /// What help calls the value of an option.
@@ -102,7 +105,7 @@ void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, boo
 void add_overwrite(CLI::App& parser, bool& overwrite);
 
 /// --range-of, of a verb that draws: other results, whose automatic range counts too.
-void add_range_of(CLI::App& parser, std::vector<std::string>& others);
+CLI::Option* add_range_of(CLI::App& parser, std::vector<std::string>& others);
 /// Behind both --range and --range-of.
 inline constexpr const char* kTwoRanges = "--range-of and --range exclude each other: one of them sets the scale";
 

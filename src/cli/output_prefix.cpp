@@ -77,6 +77,8 @@ std::string output_prefix(const std::string& given, bool overwrite, const std::s
   return ends_with(given, picture) ? given.substr(0, given.size() - picture.size()) : result_prefix(given);
 }
 
+std::string output_file(const std::string& input, const std::string& ending) { return stem(input) + ending; }
+
 std::string surface_of_result(const std::string& given) {
   std::error_code ignored;
   const std::string surface = result_prefix(given) + ".vtp";

@@ -24,6 +24,9 @@ std::string free_prefix(const std::string& prefix);
 std::string output_prefix(const std::string& given, bool overwrite, const std::string& source,
                           const std::string& target);
 
+/// The file that a verb writes where none is named: "1ake.pqr" of data/1ake.pdb.gz, in the working folder.
+std::string output_file(const std::string& input, const std::string& ending);
+
 /// The prefix of a result that is named by it or by one of its files: OUT of OUT, OUT.json, OUT.vtp.
 std::string result_prefix(const std::string& given);
 

@@ -22,7 +22,8 @@ struct SceneArguments {
   std::vector<std::function<void(Scene&)>> changes;  ///< of the given options, in order
 };
 
-void add_scene_options(CLI::App& parser, SceneArguments& arguments);
+/// @param defaults of the picture, as help names them
+void add_scene_options(CLI::App& parser, SceneArguments& arguments, const Scene& defaults = {});
 
 /// Defaults, then the scene file, then the options; then the ranges that it shares with other results.
 /// @param surface the result that is drawn, one of those that share the scale

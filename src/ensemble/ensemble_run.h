@@ -9,10 +9,10 @@
 
 #include "base/handles.h"
 #include "base/progress.h"
+#include "base/text/option_row.h"
 #include "ensemble/frames/ensemble_plan.h"
 #include "mapping/input.h"
 #include "matrix/matrix.h"
-#include "options/option_row.h"
 
 namespace espdiff {
 

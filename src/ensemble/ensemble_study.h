@@ -11,10 +11,10 @@
 #include "base/handles.h"
 #include "base/message.h"
 #include "base/progress.h"
+#include "base/text/option_row.h"
 #include "ensemble/ensemble_run.h"
 #include "ensemble/frames/ensemble_inputs.h"
 #include "ensemble/result/ensemble_result.h"
-#include "options/option_row.h"
 #include "options/options.h"
 
 namespace espdiff {

@@ -39,7 +39,7 @@ Setting causes_row() {
   return row;
 }
 
-constexpr NumberRange kDraws{0, true, "a whole number from 0 to 1000000", 1e6};
+constexpr NumberRange kDraws{0, 1e6};
 
 }  // namespace
 

@@ -82,7 +82,7 @@ void add_charge_rows(std::vector<Setting>& all) {
       "Charges and radii for structures without charges, assigned by PDB2PQR; auto: PARSE, or AMBER where there are "
       "nucleotides")));
   all.push_back(of_surface(Rows::number(
-      "ph", group, {0, true, "a pH from 0 to 14", 14}, [](auto& o) -> auto& { return o.input.charges.ph; },
+      "ph", group, {0, 14}, [](auto& o) -> auto& { return o.input.charges.ph; },
       "pH at which PROPKA chooses protonation states")));
   all.push_back(of_surface(ligand_row()));
   all.push_back(of_surface(Rows::choice(
@@ -160,8 +160,7 @@ void add_region_rows(std::vector<Setting>& all) {
       "region", group, [](auto& o) -> auto& { return o.input.region; },
       "Residues of the source for which metrics and certificate are reported as well, in gemmi's syntax"));
   all.push_back(Rows::number(
-      "region-within", group, {0, true, "a distance from 0 to 1000 Angstrom", 1000},
-      [](auto& o) -> auto& { return o.input.region_within_A; },
+      "region-within", group, {0, 1000}, [](auto& o) -> auto& { return o.input.region_within_A; },
       "The region is the source's residues with an atom within this distance of other atoms (of), Angstrom"));
   all.push_back(Rows::text(
       "of", group, [](auto& o) -> auto& { return o.input.region_of; },

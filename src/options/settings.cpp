@@ -28,13 +28,13 @@ constexpr const char* kDeformGroup = "Mapping by deform";
 void add_surface_settings(std::vector<Setting>& all) {
   const std::string group = "Surface";
   all.push_back(of_surface(Rows::number(
-      "grid-spacing", group, kPositive, [](auto& o) -> auto& { return o.surface.grid_spacing_A; },
+      "grid-spacing", group, {0.001, 20}, [](auto& o) -> auto& { return o.surface.grid_spacing_A; },
       "Lattice spacing of the density, Angstrom")));
   all.push_back(of_surface(Rows::number(
-      "radius-scale", group, kPositive, [](auto& o) -> auto& { return o.surface.radius_scale; },
+      "radius-scale", group, {0.01, 20}, [](auto& o) -> auto& { return o.surface.radius_scale; },
       "Width of each atom's Gaussian in units of its radius")));
   all.push_back(of_surface(Rows::number(
-      "isovalue", group, kPositive, [](auto& o) -> auto& { return o.surface.isovalue; },
+      "isovalue", group, {1e-6, 1e6}, [](auto& o) -> auto& { return o.surface.isovalue; },
       "Density at which the surface lies; higher is tighter")));
   all.push_back(of_surface(Rows::boolean(
       "cavities", group, [](auto& o) -> auto& { return o.surface.cavities; },
@@ -52,14 +52,13 @@ void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix
     all.push_back(Rows::number(
         prefix + name, group, range, [ iteration, member ](auto& o) -> auto& { return iteration(o).*member; }, help));
   };
-  add("sigma", kPositive, &DeformOptions::sigma, "Step scale");
+  add("sigma", {1e-6, 1000}, &DeformOptions::sigma, "Step scale");
   add("mu", kShare, &DeformOptions::mu, "Weight of the external force against the internal one, 0 to 1");
   add("rho", kShare, &DeformOptions::rho, "Weight of rigidity against tension, 0 to 1");
   add("tangential-gain", kNotNegative, &DeformOptions::tangential_gain,
       "Multiplies the internal force, which moves vertices along the surface");
   all.push_back(Rows::count(
-      prefix + "max-iterations", group,
-      kFromZero, [iteration](auto& o) -> auto& { return iteration(o).max_iterations; },
+      prefix + "max-iterations", group, {0, 1e6}, [iteration](auto& o) -> auto& { return iteration(o).max_iterations; },
       "Maximum number of iterations"));
   all.push_back(
       Rows::number(prefix + "min-displacement", group, kNotNegative, min_displacement,
@@ -68,14 +67,14 @@ void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix
 
 void add_morph_settings(std::vector<Setting>& all) {
   all.push_back(Rows::number(
-      "max-step", kMorphGroup, NumberRange{0.001, true, "a number of 0.001 or more"},
-      [](auto& o) -> auto& { return o.morph.max_step_A; }, "Maximum movement of an atom per step, Angstrom"));
+      "max-step", kMorphGroup, {0.001, 1000}, [](auto& o) -> auto& { return o.morph.max_step_A; },
+      "Maximum movement of an atom per step, Angstrom"));
   all.push_back(Rows::number(
-      "max-edge", kMorphGroup, kPositive, [](auto& o) -> auto& { return o.morph_max_edge; },
+      "max-edge", kMorphGroup, {0.25, 1000}, [](auto& o) -> auto& { return o.morph_max_edge; },
       "Split edges longer than this many grid spacings"));
   all.push_back(Rows::number(
-      "max-stretch", kMorphGroup, NumberRange{1, false, "a number above 1"},
-      [](auto& o) -> auto& { return o.morph.max_stretch; }, "Stretch of an edge at which the surface counts as torn"));
+      "max-stretch", kMorphGroup, {1, HUGE_VAL, true}, [](auto& o) -> auto& { return o.morph.max_stretch; },
+      "Stretch of an edge at which the surface counts as torn"));
 }
 
 void add_mapping_settings(std::vector<Setting>& all) {
@@ -97,16 +96,16 @@ void add_mapping_settings(std::vector<Setting>& all) {
       "(gvf) or of both surfaces (gvf2)"));
   all.back().file_key = "field";
   all.push_back(Rows::number(
-      "distance-threshold", kDeformGroup, kNotNegative, [](auto& o) -> auto& { return o.distance_threshold_A; },
+      "distance-threshold", kDeformGroup, {0, 1000}, [](auto& o) -> auto& { return o.distance_threshold_A; },
       "Distance beyond which the distance field is used, Angstrom"));
   all.push_back(Rows::number(
-      "gvf-weight", kDeformGroup, kPositive, [](auto& o) -> auto& { return o.flow.weight_A2; },
+      "gvf-weight", kDeformGroup, {1e-6, 1e6}, [](auto& o) -> auto& { return o.flow.weight_A2; },
       "Weight of smoothness in the gradient vector flow (mu), Angstrom^2"));
   all.push_back(Rows::number(
-      "gvf-tolerance", kDeformGroup, kPositive, [](auto& o) -> auto& { return o.flow.tolerance; },
+      "gvf-tolerance", kDeformGroup, {1e-12, 1000}, [](auto& o) -> auto& { return o.flow.tolerance; },
       "Converged when a sweep changes no vector by more than this; vectors at the surface have length 1"));
   all.push_back(Rows::count(
-      "gvf-max-sweeps", kDeformGroup, kFromZero, [](auto& o) -> auto& { return o.flow.max_sweeps; },
+      "gvf-max-sweeps", kDeformGroup, {0, 1e6}, [](auto& o) -> auto& { return o.flow.max_sweeps; },
       "Maximum number of sweeps; 1 or more"));
   all.push_back(Rows::choice(
       "interpolation", kDeformGroup, {"trilinear", "tricubic"},
@@ -228,24 +227,6 @@ constexpr std::pair<const char*, const char*> kUnits[] = {{"grid-spacing", "A"},
                                                           {"distance-threshold", "A"}, {"gvf-weight", "A2"},
                                                           {"temperature", "K"},        {"region-within", "A"}};
 
-/// Beyond these nobody compares surfaces, and a computation lasts for days or ends in a lack of memory.
-constexpr SettingLimits kLimits[] = {{"grid-spacing", 0.001, 20},
-                                     {"radius-scale", 0.01, 20},
-                                     {"isovalue", 1e-6, 1e6},
-                                     {"temperature", 1, 1e5},
-                                     {"require", 0, 1},
-                                     {"region-within", 0, 1000},
-                                     {"max-step", 0.001, 1000},
-                                     {"max-edge", 0.25, 1000},
-                                     {"distance-threshold", 0, 1000},
-                                     {"gvf-weight", 1e-6, 1e6},
-                                     {"gvf-tolerance", 1e-12, 1000},
-                                     {"gvf-max-sweeps", 0, 1e6},
-                                     {"sigma", 1e-6, 1000},
-                                     {"max-iterations", 0, 1e6},
-                                     {"regularize-sigma", 1e-6, 1000},
-                                     {"regularize-max-iterations", 0, 1e6}};
-
 std::vector<Setting> make_settings() {
   std::vector<Setting> all;
   all.push_back(Rows::choice(
@@ -271,14 +252,14 @@ std::vector<Setting> make_settings() {
   all.push_back(interface_setting());
   all.push_back(offset_setting());
   all.push_back(of_surface(Rows::number(
-      "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
+      "temperature", "Potentials", {1, 1e5}, [](auto& o) -> auto& { return o.temperature_K; },
       "Temperature of kT in potentials and units, K")));
   all.push_back(Rows::boolean(
       "trust-maps", "Potentials", [](auto& o) -> auto& { return o.trust_maps; },
       "Take given maps as they are: maps that do not fit the molecules' charges, or a potential in vacuum against one "
       "in water, give warnings and are not refused"));
   all.push_back(Rows::number(
-      "require", "Verdict", kPositive, [](auto& o) -> auto& { return o.required_share; },
+      "require", "Verdict", {0, 1, true}, [](auto& o) -> auto& { return o.required_share; },
       "Share of the source's surface, and of the target's, that has to be trusted, 0 to 1; with less a result is NOT "
       "TRUSTWORTHY. Use 0.95 for an answer of yes or no"));
   all.push_back(Rows::boolean(
@@ -297,17 +278,10 @@ std::vector<Setting> make_settings() {
     for (const auto& [name, unit] : kUnits)
       if (setting.name == name) setting.unit = unit;
   }
-  set_limits(all, kLimits);
   return all;
 }
 
 }  // namespace
-
-void check_limits(const SettingLimits& limits, const std::string& text, const std::string& value) {
-  double number = 0;
-  if (!read_value(value, number) || (number >= limits.least && number <= limits.most)) return;
-  refuse_value(limits.name, text, "a number from " + written_value(limits.least) + " to " + written_value(limits.most));
-}
 
 Setting of_surface(Setting row) {
   row.of_surface = true;

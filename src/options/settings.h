@@ -1,13 +1,12 @@
 // settings.h: every setting of a comparison by name, once for the command line, the Tcl commands and their manuals.
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "options/option_row.h"
+#include "base/text/option_row.h"
 
 namespace espdiff {
 
@@ -29,31 +28,6 @@ struct Setting : OptionRow<CompareOptions> {
 
 /// The row, marked as one that the surface depends on.
 Setting of_surface(Setting row);
-
-/// What a numeric setting accepts at least and at most, so that the work that follows from it stays within reason. What
-/// a molecule makes of it is asked when the molecule is known (base/work.h).
-struct SettingLimits {
-  const char* name;
-  double least, most;
-};
-
-/// @param value as its setting's get() writes it
-/// @throws InputError naming the limits
-void check_limits(const SettingLimits& limits, const std::string& text, const std::string& value);
-
-/// Holds the settings of a table that have limits to them.
-template <typename Row, std::size_t N>
-void set_limits(std::vector<Row>& rows, const SettingLimits (&all)[N]) {
-  for (Row& row : rows) {
-    for (const SettingLimits& limits : all) {
-      if (row.name != limits.name) continue;
-      row.set = [set = row.set, get = row.get, limits](auto& options, const std::string& text) {
-        set(options, text);
-        check_limits(limits, text, get(options));
-      };
-    }
-  }
-}
 
 /// Headings of the settings that say which atoms are compared, and where their charges come from.
 constexpr const char* kStructureGroup = "Structures";

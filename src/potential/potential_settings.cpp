@@ -13,7 +13,7 @@ using Methods = std::vector<PotentialMethod>;
 const Methods kPb{PotentialMethod::kPoissonBoltzmann}, kPme{PotentialMethod::kPme}, kCoulomb{PotentialMethod::kCoulomb};
 
 using Rows = RowsOf<PotentialOptions>;
-constexpr NumberRange kFromOne{1, true, "a whole number of 1 or more", 1e6};
+constexpr NumberRange kDielectric{0.001, 1e6}, kPad{0, 1e4};
 
 void add_pb_settings(std::vector<PotentialSetting>& all) {
   all.push_back(
@@ -23,19 +23,19 @@ void add_pb_settings(std::vector<PotentialSetting>& all) {
            "The Poisson-Boltzmann equation, linearized or not; nonlinear for nucleic acids and other strong charges")});
   all.push_back({"ionic_strength", kPb,
                  Rows::number(
-                     "ionic-strength", "", kNotNegative, [](auto& o) -> auto& { return o.pb.ionic_strength; },
+                     "ionic-strength", "", {0, 100}, [](auto& o) -> auto& { return o.pb.ionic_strength; },
                      "Salt in the solvent, mol/l of singly charged ions; 0 for none")});
   all.push_back({"ion_radius", kPb,
                  Rows::number(
-                     "ion-radius", "", kNotNegative, [](auto& o) -> auto& { return o.pb.ion_radius_A; },
+                     "ion-radius", "", {0, 20}, [](auto& o) -> auto& { return o.pb.ion_radius_A; },
                      "Radius of the ions, Angstrom: none come nearer to an atom's sphere (Stern layer)")});
   all.push_back({"solute_dielectric", kPb,
                  Rows::number(
-                     "solute-dielectric", "", kPositive, [](auto& o) -> auto& { return o.pb.solute_dielectric; },
+                     "solute-dielectric", "", kDielectric, [](auto& o) -> auto& { return o.pb.solute_dielectric; },
                      "Dielectric constant inside the molecule")});
   all.push_back({"solvent_dielectric", kPb,
                  Rows::number(
-                     "solvent-dielectric", "", kPositive, [](auto& o) -> auto& { return o.pb.solvent_dielectric; },
+                     "solvent-dielectric", "", kDielectric, [](auto& o) -> auto& { return o.pb.solvent_dielectric; },
                      "Dielectric constant of the solvent; 78.54 is water at 298 K")});
   all.push_back(
       {"boundary", kPb,
@@ -50,7 +50,7 @@ void add_pb_settings(std::vector<PotentialSetting>& all) {
            "(vdw), or nowhere: it changes smoothly with a Gaussian density (gaussian)")});
   all.push_back({"probe_radius", kPb,
                  Rows::number(
-                     "probe-radius", "", kNotNegative, [](auto& o) -> auto& { return o.pb.probe_radius_A; },
+                     "probe-radius", "", {0, 20}, [](auto& o) -> auto& { return o.pb.probe_radius_A; },
                      "Radius of the probe of the molecular boundary, Angstrom")});
   all.push_back({"smoothing", kPb,
                  Rows::choice_of<DielectricSmoothing>(
@@ -62,7 +62,7 @@ void add_pb_settings(std::vector<PotentialSetting>& all) {
                      "three times as much")});
   all.push_back({"gaussian_sigma", kPb,
                  Rows::number(
-                     "gaussian-sigma", "", kPositive, [](auto& o) -> auto& { return o.pb.gaussian_sigma; },
+                     "gaussian-sigma", "", {0.05, 20}, [](auto& o) -> auto& { return o.pb.gaussian_sigma; },
                      "Width of an atom's Gaussian over its radius, for the gaussian boundary")});
   all.push_back(
       {"far_boundary", kPb,
@@ -74,11 +74,11 @@ void add_pb_settings(std::vector<PotentialSetting>& all) {
            "the atoms, debye-hueckel the sum of all charges' Debye-Hueckel potentials")});
   all.push_back({"spacing", kPb,
                  Rows::number(
-                     "pb-spacing", "", kPositive, [](auto& o) -> auto& { return o.pb_spacing_A; },
+                     "pb-spacing", "", {0.001, 20}, [](auto& o) -> auto& { return o.pb_spacing_A; },
                      "Distance of the grid's points, Angstrom")});
   all.push_back({"padding", kPb,
                  Rows::number(
-                     "pb-padding", "", kPositive, [](auto& o) -> auto& { return o.pb_padding_A; },
+                     "pb-padding", "", {0.001, 1000}, [](auto& o) -> auto& { return o.pb_padding_A; },
                      "Least space between the atoms' spheres and the grid's border, Angstrom; 12 where the map is "
                      "written and for "
                      "the border debye-hueckel. It is at least 2 more than the largest distance at which a surface is "
@@ -86,12 +86,12 @@ void add_pb_settings(std::vector<PotentialSetting>& all) {
                      "where side chains are drawn in other places")});
   all.push_back({"tolerance", kPb,
                  Rows::number(
-                     "pb-tolerance", "", kPositive, [](auto& o) -> auto& { return o.pb.tolerance; },
+                     "pb-tolerance", "", {1e-14, 1}, [](auto& o) -> auto& { return o.pb.tolerance; },
                      "Error that the iteration may leave in the potentials at the surface, relative to their rms; of "
                      "the nonlinear equation: residual, relative to the right-hand side")});
   all.push_back({"max_cycles", kPb,
                  Rows::count(
-                     "pb-max-cycles", "", kFromOne, [](auto& o) -> auto& { return o.pb.max_cycles; },
+                     "pb-max-cycles", "", {1, 1e6}, [](auto& o) -> auto& { return o.pb.max_cycles; },
                      "Cycles of the iteration at most; more are an error")});
 }
 
@@ -115,12 +115,12 @@ void add_pme_settings(std::vector<PotentialSetting>& all) {
            "Grid: a resolution below 8 Angstrom, a number of points from 8 on, or three")});
   all.push_back({"ewaldfactor", kPme,
                  Rows::number(
-                     "ewaldfactor", "", kPositive, [](auto& o) -> auto& { return o.pme.ewald_factor; },
+                     "ewaldfactor", "", {0.001, 10}, [](auto& o) -> auto& { return o.pme.ewald_factor; },
                      "Smearing of the charges in the smooth part, 1/Angstrom: Gaussians of variance 1 / (2 f^2)")});
-  all.push_back({"spline", kPme,
-                 Rows::count(
-                     "pme-spline", "", kFromOne, [](auto& o) -> auto& { return o.pme.order; },
-                     "Order of the B-splines, 4 to 8")});
+  all.push_back(
+      {"spline", kPme,
+       Rows::count(
+           "pme-spline", "", {4, 8}, [](auto& o) -> auto& { return o.pme.order; }, "Order of the B-splines, 4 to 8")});
   all.push_back({"precision", kPme,
                  Rows::choice_of<Precision>(
                      "pme-precision", "", {{"single", Precision::kSingle}, {"double", Precision::kDouble}},
@@ -135,8 +135,8 @@ void add_pme_settings(std::vector<PotentialSetting>& all) {
                      "pme-pad", "",
                      [](PotentialOptions& o, const std::string& text) {
                        double value = 0;
-                       if (!read_value(text, value) || !is_within(kNotNegative, value))
-                         refuse_value("pme-pad", text, kNotNegative.words);
+                       if (!read_value(text, value) || !is_within(kPad, value))
+                         refuse_value("pme-pad", text, to_string(kPad, SettingKind::kNumber));
                        o.pad_A = value;
                      },
                      [](const PotentialOptions& o) { return o.pad_A ? written_value(*o.pad_A) : std::string(); },
@@ -147,26 +147,13 @@ void add_pme_settings(std::vector<PotentialSetting>& all) {
 void add_coulomb_settings(std::vector<PotentialSetting>& all) {
   all.push_back({"dielectric", kCoulomb,
                  Rows::number(
-                     "dielectric", "", kPositive, [](auto& o) -> auto& { return o.coulomb.dielectric; },
+                     "dielectric", "", kDielectric, [](auto& o) -> auto& { return o.coulomb.dielectric; },
                      "Dielectric constant everywhere; 1 is vacuum")});
   all.push_back({"distance_dependent", kCoulomb,
                  Rows::boolean(
                      "distance-dependent", "", [](auto& o) -> auto& { return o.coulomb.distance_dependent; },
                      "The dielectric grows with the distance: dielectric times r in Angstrom (4 is ChimeraX's)")});
 }
-
-/// As those of options/settings.cpp.
-constexpr SettingLimits kPotentialLimits[] = {{"ion-radius", 0, 20},
-                                              {"probe-radius", 0, 20},
-                                              {"gaussian-sigma", 0.05, 20},
-                                              {"pb-spacing", 0.001, 20},
-                                              {"pb-padding", 0.001, 1000},
-                                              {"pb-tolerance", 1e-14, 1},
-                                              {"ewaldfactor", 0.001, 10},
-                                              {"pme-pad", 0, 1e4},
-                                              {"ionic-strength", 0, 100},
-                                              {"solute-dielectric", 0.001, 1e6},
-                                              {"solvent-dielectric", 0.001, 1e6}};
 
 bool reads(const PotentialSetting& setting, PotentialMethod method) {
   return std::find(setting.of.begin(), setting.of.end(), method) != setting.of.end();
@@ -186,7 +173,6 @@ const std::vector<PotentialSetting>& potential_settings() {
     add_pb_settings(made);
     add_pme_settings(made);
     add_coulomb_settings(made);
-    set_limits(made, kPotentialLimits);
     return made;
   }();
   return all;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text/option_row.h"
 #include "base/vector.h"
 #include "scene/colour_scale.h"
 
@@ -62,9 +63,13 @@ struct Scene {
   std::optional<double> slice;  ///< plane through the target's map across the view: 0 front, 1 back
 };
 
-/// @throws InputError listing the layouts
-Layout parse_layout(const std::string& text);
-MoleculeStyle parse_molecule_style(const std::string& text);
+/// One option of a picture.
+struct SceneOption : OptionRow<Scene> {
+  std::string other_name;  ///< that the option has besides: "colour" of "color"
+};
+
+/// All settings of a scene that are options of `render` and `view`; each is one row, and an entry of scene files too.
+const std::vector<SceneOption>& scene_options();
 
 /// A scene as JSON, including the defaults.
 std::string scene_json(const Scene& scene);

@@ -15,7 +15,7 @@ const std::vector<OptionRow<MatrixStudy>>& matrix_settings() {
           "each variant instead of each pair, and differences of potentials only. medoid: the variant nearest to all "
           "others; a label; a number from 0; a structure file. The potentials stay in OUT.h5"),
       Rows::count(
-          "exact-sample", "Template", kFromZero, [](auto& o) -> auto& { return o.n_exact; },
+          "exact-sample", "Template", kNotNegative, [](auto& o) -> auto& { return o.n_exact; },
           "With a template: pairs, chosen at random, that are compared by themselves as well, to tell how far the "
           "template's are from exact ones; 0 for none"),
       Rows::boolean(

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "options/option_row.h"
+#include "base/text/option_row.h"
 #include "study/matrix_study.h"
 
 namespace espdiff {

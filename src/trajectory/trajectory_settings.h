@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/text/option_row.h"
 #include "compare/series.h"
-#include "options/option_row.h"
 #include "trajectory/series_head.h"
 #include "trajectory/trajectory.h"
 

@@ -35,7 +35,7 @@ namespace eval ::espdiff {
         set charges [vmd_charges $mol $sel $frame $role]
         set options [dict create sel $sel align $align]
         set core [dict merge [list method pme align $align around 1 device $default_device] $settings]
-        if {[dict exists $keys cell]} { dict set core box [dict get $keys cell] }
+        if {[dict exists $keys cell]} { dict set core cell [dict get $keys cell] }
         set handle [core::potential $core]
         finally {
             foreach one [window_around $frame $n [molinfo $mol get numframes]] {

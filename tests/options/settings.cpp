@@ -75,17 +75,17 @@ TEST_CASE("a refused value is named with the accepted ones") {
   const auto message = [](const std::string& name, const std::string& value) {
     return message_of([&] { make_options({{name, value}}); });
   };
-  CHECK(message("grid-spacing", "0") == "grid-spacing: '0' is not a positive number");
-  CHECK(message("grid-spacing", "1 A") == "grid-spacing: '1 A' is not a positive number");
-  CHECK(message("isovalue", "nan") == "isovalue: 'nan' is not a positive number");
-  CHECK(message("distance-threshold", "-1") == "distance-threshold: '-1' is not a number of 0 or more");
-  CHECK(message("max-iterations", "2.5") == "max-iterations: '2.5' is not a whole number of 0 or more");
+  CHECK(message("grid-spacing", "0") == "grid-spacing: '0' is not a number from 0.001 to 20");
+  CHECK(message("grid-spacing", "1 A") == "grid-spacing: '1 A' is not a number from 0.001 to 20");
+  CHECK(message("isovalue", "nan") == "isovalue: 'nan' is not a number from 1e-06 to 1e+06");
+  CHECK(message("distance-threshold", "-1") == "distance-threshold: '-1' is not a number from 0 to 1000");
+  CHECK(message("max-iterations", "2.5") == "max-iterations: '2.5' is not a whole number from 0 to 1000000");
   CHECK(message("cavities", "yes") == "cavities: 'yes' is not 0 or 1");
   CHECK(message("align", "heavy") == "align: 'heavy' is not all, backbone, ca or none");
   CHECK(message("deform-field", "gvf3") == "deform-field: 'gvf3' is not density, distance, gvf or gvf2");
-  CHECK(message("gvf-weight", "0") == "gvf-weight: '0' is not a positive number");
-  CHECK(message("gvf-tolerance", "-1") == "gvf-tolerance: '-1' is not a positive number");
-  CHECK(message("gvf-max-sweeps", "many") == "gvf-max-sweeps: 'many' is not a whole number of 0 or more");
+  CHECK(message("gvf-weight", "0") == "gvf-weight: '0' is not a number from 1e-06 to 1e+06");
+  CHECK(message("gvf-tolerance", "-1") == "gvf-tolerance: '-1' is not a number from 1e-12 to 1000");
+  CHECK(message("gvf-max-sweeps", "many") == "gvf-max-sweeps: 'many' is not a whole number from 0 to 1000000");
   CHECK(message("subdivide", "yes") == "subdivide: 'yes' is not 0 or 1");
   CHECK(message("method", "morf") == "method: 'morf' is not morph or deform");
   CHECK(message("max-stretch", "1") == "max-stretch: '1' is not a number above 1");
@@ -96,8 +96,9 @@ TEST_CASE("a refused value is named with the accepted ones") {
   CHECK(message("max-edge", "0.01") == "max-edge: '0.01' is not a number from 0.25 to 1000");
   CHECK(message("max-edge", "1e-9") == "max-edge: '1e-9' is not a number from 0.25 to 1000");
   CHECK(message("grid-spacing", "1e-300") == "grid-spacing: '1e-300' is not a number from 0.001 to 20");
-  CHECK(message("max-step", "1e-5") == "max-step: '1e-5' is not a number of 0.001 or more");
-  CHECK(message("gvf-max-sweeps", "2000000000") == "gvf-max-sweeps: '2000000000' is not a number from 0 to 1e+06");
+  CHECK(message("max-step", "1e-5") == "max-step: '1e-5' is not a number from 0.001 to 1000");
+  CHECK(message("gvf-max-sweeps", "2000000000") ==
+        "gvf-max-sweeps: '2000000000' is not a whole number from 0 to 1000000");
   CHECK(message("sigmas", "1") == "there is no setting 'sigmas'");
 }
 

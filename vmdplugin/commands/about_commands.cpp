@@ -16,6 +16,7 @@
 #include "options/settings.h"
 #include "page/page_texts.h"
 #include "plot/colour_map.h"
+#include "potential/map_series_request.h"
 #include "potential/potential_plan.h"
 #include "potential/potential_settings.h"
 #include "study/matrix_settings.h"
@@ -121,11 +122,12 @@ Tcl_Obj* list_rows(const std::vector<OptionRow<Study>>& rows) {
   return to_list(all);
 }
 
-/// STUDY: the options of `matrix`, `trajectory` or `ensemble` besides those of a comparison.
+/// STUDY: the options of `matrix`, `trajectory`, `ensemble` or `potential` besides those of a comparison.
 Tcl_Obj* list_study_settings(const Call& call) {
   const std::string study = call.text(0);
   if (study == "matrix") return list_rows(matrix_settings());
   if (study == "merge") return list_rows(merge_settings());
+  if (study == "potential") return list_rows(map_series_settings());
   if (study == "trajectory") return list_rows(trajectory_settings());
 #ifdef ESPDIFF_HAVE_HDF5
   if (study == "ensemble") return list_rows(ensemble_settings());

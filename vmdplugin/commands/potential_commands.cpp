@@ -1,4 +1,4 @@
-// potential_commands.cpp: potential, potential_frame, potential_put, potential_write, xsc_cell: potentials of frames,
+// potential_commands.cpp: potential, potential_frame, potential_put, potential_write: potentials of frames,
 // and their average.
 #include <algorithm>
 
@@ -8,8 +8,7 @@
 #include "engine/engine.h"
 #include "engine/select_engine.h"
 #include "io/grids/write_grid.h"
-#include "io/structures/read_unit_cells.h"
-#include "potential/potential.h"
+#include "potential/map_series_request.h"
 #include "potential/potential_series.h"
 #include "vmdplugin/bridge/volume_store.h"
 #include "vmdplugin/values/tcl_values.h"
@@ -49,13 +48,11 @@ Tcl_Obj* potential(const Call& call) {
   object->computation.device = reader.text("device", "auto");
   parse_device(object->computation.device);  // reports a wrong one at once
   object->computation.threads = reader.integer("threads", 0);
-  const PotentialMethod method = parse_potential_method(reader.text("method", "pme"));
-  object->potential = make_potential_options(method, take_potential_settings(reader), PmeOptions().temperature_K, true);
-  if (Tcl_Obj* const box = reader.find("box")) object->potential.cell = parse_cell(to_string(box));
-  object->potential.align = parse_align_atoms(reader.text("align", "none"));
+  MapSeriesRequest request;
+  reader.take(map_series_settings(), request);
+  object->potential = options_of(request, take_potential_settings(reader), PmeOptions().temperature_K);
   object->potential.around_aligned = reader.boolean("around", false);
-  object->potential.frames_per_block = static_cast<std::size_t>(std::max(1, reader.integer("block", 1)));
-  object->keeps_frames = reader.boolean("each", false);
+  object->keeps_frames = request.each;
   reader.finish();
   return to_obj(call.handles.add(object));
 }
@@ -115,7 +112,7 @@ Grid average(const Call& call) {
   if (object->series == nullptr) throw InputError(handle + " has no frames yet");
   const RunningMap& frames = object->series->average();
   if (which == "frame") {
-    if (!object->keeps_frames) throw InputError(handle + " keeps no frame's own map; `each 1` wants them");
+    if (!object->keeps_frames) throw InputError(handle + " keeps no frame's own map; `averaging each` keeps them");
     Grid map = object->frame;
     map.name = "espdiff potential (kT/e, T=300K), " + object->frame.name;
     return map;
@@ -148,21 +145,13 @@ Tcl_Obj* potential_write(const Call& call) {
   return to_obj(path);
 }
 
-/// The cell of a NAMD .xsc file as a list {centre a b c}.
-Tcl_Obj* xsc_cell(const Call& call) {
-  std::vector<Tcl_Obj*> vectors;
-  for (const Vec3d& v : read_xsc(call.text(0))) vectors.push_back(to_list({to_obj(v.x), to_obj(v.y), to_obj(v.z)}));
-  return to_list(vectors);
-}
-
 }  // namespace
 
 std::vector<Command> potential_commands() {
   return {{"potential", 1, 1, "options", potential},
           {"potential_frame", 2, 2, "handle frame", potential_frame},
           {"potential_put", 2, 2, "handle average", potential_put},
-          {"potential_write", 3, 3, "handle average file", potential_write},
-          {"xsc_cell", 1, 1, "file", xsc_cell}};
+          {"potential_write", 3, 3, "handle average file", potential_write}};
 }
 
 }  // namespace espdiff::vmdplugin

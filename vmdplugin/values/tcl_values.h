@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "options/option_row.h"
+#include "base/text/option_row.h"
 
 namespace espdiff::vmdplugin {
 

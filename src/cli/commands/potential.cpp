@@ -1,14 +1,14 @@
-// potential.cpp: `espdiff potential MOLECULE -o OUT.dx`.
+// potential.cpp: `espdiff potential MOLECULE`.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iostream>
 #include <memory>
 
-#include "align/pair_atoms.h"
 #include "base/formatted.h"
 #include "base/molecule/water.h"
 #include "cli/options.h"
+#include "cli/output_prefix.h"
 #include "cli/verbs.h"
 #include "cli/words/help.h"
 #include "engine/engine.h"
@@ -16,10 +16,10 @@
 #include "io/files/atomic_file.h"
 #include "io/files/check_outputs.h"
 #include "io/grids/write_grid.h"
-#include "io/structures/read_unit_cells.h"
 #include "io/structures/structure_file.h"
+#include "mapping/map_recipe.h"
 #include "options/options.h"
-#include "potential/potential.h"
+#include "potential/map_series_request.h"
 #include "potential/potential_plan.h"
 #include "potential/potential_series.h"
 #include "prepare/input_files.h"
@@ -31,41 +31,15 @@ namespace {
 
 struct PotentialArguments {
   std::string molecule, output, variance, standard_error;
-  std::string method = "pme", frames = "all", averaging = "mean", align = "none";
-  std::string cell, xsc_file;
+  std::string frames = "all";
+  MapSeriesRequest map;
   double temperature_K = PmeOptions().temperature_K;
   GivenPotentialSettings given;
-  std::size_t frames_per_block = 1;
   bool quiet = false, overwrite = false;
   GivenSettings settings;
   StructureOptions structure{1, true, true};
   DeviceArguments device;
 };
-
-void add_cell_options(CLI::App& p, PotentialArguments& a) {
-  const char* const group = "Cell";
-  p.add_option("--cell", a.cell,
-               "Cell of every frame, '{{ox oy oz} {ax ay az} {bx by bz} {cx cy cz}}', o its centre. Default: each "
-               "frame's CRYST1 record, centred on the atoms; without it, a box around the atoms")
-      ->group(group);
-  p.add_option("--xscfile", a.xsc_file, "Cell of every frame from a NAMD .xsc file")->group(group);
-}
-
-void add_method_options(CLI::App& p, PotentialArguments& a) {
-  const char* const group = "Method";
-  p.add_option("--method", a.method,
-               "pme: particle-mesh Ewald in a periodic cell (mean zero; a net charge is neutralized by a uniform "
-               "background). pb: in salt water, by the Poisson-Boltzmann equation. coulomb: the bare law, isolated, "
-               "summed directly")
-      ->check(CLI::IsMember({"pme", "pb", "coulomb"}))
-      ->capture_default_str()
-      ->group(group);
-  p.add_option("--temperature", a.temperature_K, "Temperature of kT, K")
-      ->capture_default_str()
-      ->check(finite_number())
-      ->group(group);
-  add_potential_settings(p, a.given, true);
-}
 
 void add_frame_options(CLI::App& p, PotentialArguments& a) {
   const char* const group = "Frames";
@@ -73,38 +47,10 @@ void add_frame_options(CLI::App& p, PotentialArguments& a) {
                "Models of the file, from 0: all, a frame, begin:end or begin:step:end; see `espdiff trajectory`")
       ->capture_default_str()
       ->group(group);
-  p.add_option("--averaging", a.averaging, "mean: one map, the mean over frames. each: OUT.0000.dx, OUT.0001.dx, ...")
-      ->check(CLI::IsMember({"mean", "each"}))
-      ->capture_default_str()
-      ->group(group);
   p.add_option("--variance", a.variance, "Also write the variance over frames, (kT/e)^2 (.dx or .vti)")->group(group);
   p.add_option("--standard-error", a.standard_error,
                "Also write the standard error of the mean, from the means of blocks of frames (.dx or .vti)")
       ->group(group);
-  p.add_option("--block", a.frames_per_block, "Frames in a block; more than the correlation time in frames")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str()
-      ->group(group);
-  p.add_option("--align", a.align, "Superpose frames on the first by these atoms; the maps follow the molecule")
-      ->check(CLI::IsMember({"all", "backbone", "ca", "none"}))
-      ->capture_default_str()
-      ->group(group);
-}
-
-PotentialOptions options_from(const PotentialArguments& a) {
-  const PotentialMethod method = parse_potential_method(a.method);
-  PotentialOptions o = make_potential_options(method, a.given, a.temperature_K, true);
-  if (!a.cell.empty() && !a.xsc_file.empty()) throw InputError("--cell and --xscfile were given; leave one out");
-  if (method == PotentialMethod::kPoissonBoltzmann && !(a.cell.empty() && a.xsc_file.empty()))
-    throw InputError("a cell was given, and --method pb has none; leave it out, or take --method pme");
-  if (!a.cell.empty()) o.cell = parse_cell(a.cell);
-  if (!a.xsc_file.empty()) {
-    const auto [centre, edge_a, edge_b, edge_c] = read_xsc(a.xsc_file);
-    o.cell = PmeCell{centre, {edge_a, edge_b, edge_c}};
-  }
-  o.align = parse_align_atoms(a.align);
-  o.frames_per_block = a.frames_per_block;
-  return o;
 }
 
 /// OUT.dx -> OUT.0007.dx
@@ -117,7 +63,7 @@ std::string numbered(const std::string& path, int frame) {
 /// all or none.
 class Outputs {
  public:
-  Outputs(const PotentialArguments& a, const std::vector<int>& frames) : each_(a.averaging == "each") {
+  Outputs(const PotentialArguments& a, const std::vector<int>& frames) : each_(a.map.each) {
     std::vector<std::string> paths;
     if (!each_) paths.push_back(a.output);
     for (std::size_t i = 0; each_ && i < frames.size(); ++i) paths.push_back(numbered(a.output, frames[i]));
@@ -126,7 +72,7 @@ class Outputs {
       if (!path->empty()) paths.push_back(*path);
     }
     std::vector<std::string> inputs = input_files(make_options(a.settings).input);
-    inputs.insert(inputs.end(), {a.molecule, a.xsc_file});
+    inputs.insert(inputs.end(), {a.molecule, a.map.xsc_file});
     check_outputs(inputs, paths, a.overwrite);
     for (const std::string& path : paths) open(path);
   }
@@ -190,7 +136,8 @@ class Frames {
   Molecule read(int frame) {
     structure_.model = frame + 1;
     if (!first_) {
-      first_ = load_for({a_.method, "auto", {}}, true, file_, {structure_, StateRole::kOnly}, options_, progress_);
+      first_ = load_for({to_string(a_.map.method), "auto", {}}, true, file_, {structure_, StateRole::kOnly}, options_,
+                        progress_);
       check_left_out(options_, {&*first_});
       return first_->molecule;
     }
@@ -211,8 +158,9 @@ class Frames {
   std::optional<LoadedState> first_;
 };
 
-int potential_verb(const PotentialArguments& a, const Context& context) {
-  const PotentialOptions options = options_from(a);
+int potential_verb(PotentialArguments& a, const Context& context) {
+  if (a.output.empty()) a.output = output_file(a.molecule, ".dx");
+  const PotentialOptions options = options_of(a.map, a.given, a.temperature_K);
   const auto start = std::chrono::steady_clock::now();
   context.progress->report("read", 0.0);
   const StructureFile file(a.molecule);
@@ -237,7 +185,9 @@ int potential_verb(const PotentialArguments& a, const Context& context) {
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (a.quiet) return 0;
   if (states.preparation()) print_preparation(std::cout, *states.preparation());
-  print_summary(states.first(), series.average().mean(), frames.size(), a.method == "pb", ms);
+  print_summary(states.first(), series.average().mean(), frames.size(),
+                a.map.method == PotentialMethod::kPoissonBoltzmann, ms);
+  std::cout << "written        " << (a.map.each ? numbered(a.output, frames.front()) + " and so on" : a.output) << '\n';
   return 0;
 }
 
@@ -252,16 +202,17 @@ Verb add_potential(CLI::App& app) {
       ->add_option("MOLECULE", a->molecule,
                    "Structure: PQR, or PDB and mmCIF, which PDB2PQR gives charges; several models are frames")
       ->required();
-  parser->add_option("-o,--output,--dxfile", a->output, "Map to write: .dx (APBS, VMD, PyMOL) or .vti (ParaView)")
-      ->required();
-  add_method_options(*parser, *a);
+  parser->add_option("-o,--output,--dxfile", a->output,
+                     "Map to write: .dx (APBS, VMD, PyMOL) or .vti (ParaView); MOLECULE.dx in the working folder");
+  add_rows(*parser, map_series_settings(), a->map);
+  parser->add_option("--temperature", a->temperature_K, "Temperature of kT, K")
+      ->capture_default_str()
+      ->check(finite_number())
+      ->group("Method");
+  add_potential_settings(*parser, a->given, true);
   add_settings(*parser, a->settings, SettingsFor::kPreparation);
-  add_cell_options(*parser, *a);
   add_frame_options(*parser, *a);
-  parser->add_flag("!--no-hetero", a->structure.include_hetero, "Ignore HETATM records (ligands, ions)")
-      ->group("Molecules");
-  parser->add_flag("!--no-water", a->structure.include_water, "Ignore water molecules, which are kept by default")
-      ->group("Molecules");
+  add_structure_options(*parser, a->structure);
   add_device_options(*parser, a->device);
   add_overwrite(*parser, a->overwrite);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");

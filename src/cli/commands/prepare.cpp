@@ -1,4 +1,4 @@
-// prepare.cpp: `espdiff prepare IN -o OUT.pqr`.
+// prepare.cpp: `espdiff prepare IN`.
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -6,6 +6,7 @@
 #include "base/formatted.h"
 #include "base/version.h"
 #include "cli/options.h"
+#include "cli/output_prefix.h"
 #include "cli/verbs.h"
 #include "cli/words/help.h"
 #include "io/files/atomic_file.h"
@@ -65,6 +66,7 @@ void print_summary(const PrepareArguments& a, const LoadedState& state) {
 
 int prepare_verb(PrepareArguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
+  if (a.output.empty()) a.output = output_file(a.input, ".pqr");
   if (a.json.empty()) a.json = json_beside(a.output);
   std::vector<std::string> inputs = input_files(options.input);
   inputs.push_back(a.input);
@@ -93,12 +95,9 @@ Verb add_prepare(CLI::App& app) {
       "charges.\n\n"
       "Writes OUT.pqr, and OUT.json with what was added, repaired and protonated.");
   parser->add_option("IN", a->input, "Structure: PDB, mmCIF or PQR")->required();
-  parser->add_option("-o,--output", a->output, "PQR file to write")->required();
+  parser->add_option("-o,--output", a->output, "PQR file to write; IN.pqr in the working folder");
   parser->add_option("--json", a->json, "File for what was done; default: the PQR's name with .json");
-  parser->add_option("--model", a->structure.model, "Model of a multi-model file, from 1")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str()
-      ->group("Structures");
+  add_model_option(*parser, a->structure);
   add_structure_options(*parser, a->structure);
   add_settings(*parser, a->settings, SettingsFor::kPreparation);
   add_overwrite(*parser, a->overwrite);

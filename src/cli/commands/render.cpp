@@ -1,4 +1,4 @@
-// render.cpp: `espdiff render OUT.vtp -o OUT.png`.
+// render.cpp: `espdiff render OUT`.
 #include "cli/output_prefix.h"
 #include "cli/verbs.h"
 #include "cli/words/help.h"
@@ -36,6 +36,8 @@ void require_png(const std::string& path) {
 }
 
 int render_verb(RenderArguments& a, const Context& context) {
+  const bool is_named = !a.output.empty();
+  if (!is_named) a.output = output_file(a.input, ".png");
   require_png(a.output);
   const Scene scene = scene_of(a.scene, a.input);
   check_outputs({a.input, a.scene.scene_file}, {a.output, a.scene.saved_scene}, a.overwrite);
@@ -44,6 +46,7 @@ int render_verb(RenderArguments& a, const Context& context) {
   for (const std::string& note : render_surface(a.input, a.output, scene, saved.get())) {
     std::fprintf(stderr, "espdiff: note: %s\n", printable(note).c_str());
   }
+  if (!is_named) std::printf("written        %s\n", printable(a.output).c_str());
   return 0;
 }
 
@@ -54,7 +57,7 @@ Verb add_render(CLI::App& app) {
   CLI::App* parser = app.add_subcommand("render", "Draw a comparison to a PNG");
   parser->footer("Needs an X display; without one: xvfb-run -a espdiff render ...");
   parser->add_option("SURFACE", a->input, "A result of compare: its prefix OUT, OUT.vtp or OUT.json")->required();
-  parser->add_option("-o,--output", a->output, "Picture to write (.png)")->required();
+  parser->add_option("-o,--output", a->output, "Picture to write (.png); SURFACE.png in the working folder");
   add_overwrite(*parser, a->overwrite);
   add_scene_options(*parser, a->scene);
   set_help(*parser, {"",

@@ -1,4 +1,4 @@
-// surface.cpp: `espdiff surface MOLECULE -o OUT.vtp`.
+// surface.cpp: `espdiff surface MOLECULE`.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -7,6 +7,7 @@
 #include "base/formatted.h"
 #include "cli/map_options.h"
 #include "cli/options.h"
+#include "cli/output_prefix.h"
 #include "cli/verbs.h"
 #include "cli/words/help.h"
 #include "engine/engine.h"
@@ -76,7 +77,8 @@ void print_summary(const SurfaceResult& result) {
   }
 }
 
-int surface_verb(const SurfaceArguments& a, const Context& context) {
+int surface_verb(SurfaceArguments& a, const Context& context) {
+  if (a.output.empty()) a.output = output_file(a.molecule, ".vtp");
   const CompareOptions options = make_options(a.settings);
   std::vector<std::string> inputs = input_files(options.input);
   inputs.insert(inputs.end(), {a.molecule, a.map});
@@ -114,6 +116,7 @@ int surface_verb(const SurfaceArguments& a, const Context& context) {
   if (!map.contradicting_title.empty())
     std::cout << "map            calls itself '" << map.contradicting_title << "', but is taken as a potential\n";
   print_summary(result);
+  std::cout << "written        " << a.output << (a.density.empty() ? "" : ", " + a.density) << '\n';
   return 0;
 }
 
@@ -126,14 +129,11 @@ Verb add_surface(CLI::App& app) {
   parser->footer(
       "A structure without charges is prepared by PDB2PQR where a potential is asked for, as by `espdiff compare`.");
   parser->add_option("MOLECULE", a->molecule, "Structure: PQR, PDB or mmCIF")->required();
-  parser->add_option("-o,--output", a->output, "Surface to write (.vtp)")->required();
+  parser->add_option("-o,--output", a->output, "Surface to write; MOLECULE.vtp in the working folder");
   parser->add_option("--map", a->map, "Potential map: DX, VTI or cube")->group("Potentials");
   parser->add_option("--map-unit", a->map_unit, "Unit of the map if the file does not give it")->group("Potentials");
   parser->add_option("--map-array", a->map_array, "Array of a VTI map with several")->group("Potentials");
-  parser->add_option("--model", a->structure.model, "Model of a multi-model file, from 1")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str()
-      ->group("Molecules");
+  add_model_option(*parser, a->structure);
   parser->add_option("--density", a->density, "Also write the surface's density (.dx, for VMD)");
   parser->add_flag("--regularize", a->regularize, "Regularize the triangles");
   add_overwrite(*parser, a->overwrite);

@@ -24,11 +24,15 @@ struct ViewArguments {
   SceneArguments scene;
 };
 
+Scene window() {
+  Scene scene;
+  scene.width = 1280;
+  scene.height = 860;
+  return scene;
+}
+
 int view_verb(ViewArguments& a, const Context&) {
-  Scene window;
-  window.width = 1280;
-  window.height = 860;
-  const Scene scene = scene_of(a.scene, a.input, window);
+  const Scene scene = scene_of(a.scene, a.input, window());
   if (a.prefix.empty()) a.prefix = std::filesystem::path(a.input).stem().string() + "-view";
   check_outputs({a.input, a.scene.scene_file}, {a.scene.saved_scene}, a.overwrite);
   if (const auto saved = saved_scene_of(a.scene, scene)) saved->commit();
@@ -55,7 +59,7 @@ Verb add_view(CLI::App& app) {
   parser->add_option("-o,--output", a->prefix,
                      "Pictures and scenes are saved as PREFIX.png and PREFIX.json [OUT-view]");
   parser->add_flag("--overwrite", a->overwrite, "Replace the file of --save-scene, if there is one");
-  add_scene_options(*parser, a->scene);
+  add_scene_options(*parser, a->scene, window());
   set_help(*parser, {"", {"espdiff view result.vtp --layout linked"}});
   return {parser, [a](const Context& context) {
             a->input = surface_of_result(a->input);

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "base/molecule/structure_options.h"
+#include "base/text/option_row.h"
 #include "ensemble/frames/ensemble_plan.h"
 #include "ensemble/frames/given_maps.h"
 #include "ensemble/frames/replicate_request.h"
 #include "frames/frame_files.h"
 #include "mapping/input.h"
-#include "options/option_row.h"
 #include "options/options.h"
 #include "potential/potential_plan.h"
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "base/text/option_row.h"
 #include "ensemble/file/ensemble_columns.h"
 #include "ensemble/result/regression_column.h"
-#include "options/option_row.h"
 #include "statistics/surface/surface_test.h"
 
 namespace espdiff {
@@ -47,8 +47,7 @@ std::vector<OptionRow<Study>> statistics_rows(At at) {
   const std::string group = "Statistics";
   return {
       Rows::number(
-          "alpha", group,
-          {1e-6, true, "a number from 1e-06 to 0.5", 0.5}, [at](auto& o) -> auto& { return at(o).alpha; },
+          "alpha", group, {1e-6, 0.5}, [at](auto& o) -> auto& { return at(o).alpha; },
           "Significance level; intervals have the confidence 1 - alpha"),
       Rows::template choice_of<ErrorControl>(
           "control", group, {{"tfce", ErrorControl::kTfce}, {"max-t", ErrorControl::kMaxT}},
@@ -60,15 +59,13 @@ std::vector<OptionRow<Study>> statistics_rows(At at) {
           "Frames to cut off at the start of each replicate: none, a number, or auto, which leaves the most effective "
           "samples of RMSD and mean potential"),
       Rows::number(
-          "most-missing", group,
-          {0, true, "a number from 0 to 0.9", 0.9}, [at](auto& o) -> auto& { return at(o).most_missing; },
+          "most-missing", group, {0, 0.9}, [at](auto& o) -> auto& { return at(o).most_missing; },
           "A vertex that is unmatched or not trusted in a larger share of a group's frames is not tested"),
       Rows::count(
-          "permutations", group, {20, true, "a whole number from 20 to 1000000", 1e6},
-          [at](auto& o) -> auto& { return at(o).test.max_permutations; },
+          "permutations", group, {20, 1e6}, [at](auto& o) -> auto& { return at(o).test.max_permutations; },
           "Maximum number of permutations of labels; all are used if there are fewer"),
       Rows::count(
-          "seed", group, kFromZero, [at](auto& o) -> auto& { return at(o).test.seed; },
+          "seed", group, kNotNegative, [at](auto& o) -> auto& { return at(o).test.seed; },
           "Random seed; written into the result")};
 }
 

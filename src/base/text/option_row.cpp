@@ -1,5 +1,5 @@
 // option_row.cpp: numbers and words of options as texts.
-#include "options/option_row.h"
+#include "base/text/option_row.h"
 
 #include <charconv>
 #include <locale>
@@ -44,7 +44,18 @@ std::string written_value(double value) {
 }
 
 bool is_within(const NumberRange& range, double value) {
-  return std::isfinite(value) && (range.low_included ? value >= range.low : value > range.low) && value <= range.high;
+  return std::isfinite(value) && (range.is_above ? value > range.low : value >= range.low) && value <= range.high;
+}
+
+std::string to_string(const NumberRange& range, SettingKind kind) {
+  const bool is_whole = kind == SettingKind::kInteger;
+  const auto written = [is_whole](double value) {
+    return is_whole ? std::to_string(static_cast<long long>(value)) : written_value(value);
+  };
+  const std::string text = is_whole ? "a whole number " : "a number ", low = written(range.low);
+  const bool has_end = std::isfinite(range.high);
+  if (range.is_above) return text + "above " + low + (has_end ? ", at most " + written(range.high) : "");
+  return has_end ? text + "from " + low + " to " + written(range.high) : text + "of " + low + " or more";
 }
 
 }  // namespace espdiff

@@ -34,15 +34,16 @@ struct OptionRow {
   bool is_file = false;  ///< the text names files, which are sought from the working folder
 };
 
-/// The numbers that an option accepts.
+/// The numbers that an option accepts. Its ends keep the work that follows within reason: beyond them nobody compares
+/// surfaces, and a computation lasts for days or ends in a lack of memory. What a molecule makes of a value is asked
+/// when the molecule is known (base/work.h).
 struct NumberRange {
-  double low;
-  bool low_included;
-  const char* words;       ///< "a number from 0 to 1"
-  double high = HUGE_VAL;  ///< included
+  double low, high = HUGE_VAL;  ///< included, but for `low` where `is_above`
+  bool is_above = false;
 };
-constexpr NumberRange kPositive{0, false, "a positive number"}, kNotNegative{0, true, "a number of 0 or more"},
-    kShare{0, true, "a number from 0 to 1", 1}, kFromZero{0, true, "a whole number of 0 or more"};
+constexpr NumberRange kNotNegative{0}, kShare{0, 1};
+/// "a number from 0 to 1", "a whole number of 0 or more", "a number above 1"
+std::string to_string(const NumberRange& range, SettingKind kind);
 
 /// @throws InputError "--NAME: 'TEXT' is not ACCEPTED"
 [[noreturn]] void refuse_value(const std::string& name, const std::string& text, const std::string& accepted);
@@ -65,7 +66,8 @@ struct RowsOf {
     Row row{name, group, SettingKind::kNumber, {}, help, nullptr, nullptr};
     row.set = [name, range, at](Options& o, const std::string& text) {
       double value = 0;
-      if (!read_value(text, value) || !is_within(range, value)) refuse_value(name, text, range.words);
+      if (!read_value(text, value) || !is_within(range, value))
+        refuse_value(name, text, to_string(range, SettingKind::kNumber));
       at(o) = value;
     };
     row.get = [at](const Options& o) { return written_value(at(o)); };
@@ -79,7 +81,7 @@ struct RowsOf {
     row.set = [name, range, at](Options& o, const std::string& text) {
       long long value = 0;
       if (!read_value(text, value) || !is_within(range, static_cast<double>(value)))
-        refuse_value(name, text, range.words);
+        refuse_value(name, text, to_string(range, SettingKind::kInteger));
       at(o) = static_cast<std::decay_t<decltype(at(o))>>(value);
     };
     row.get = [at](const Options& o) { return std::to_string(at(o)); };
