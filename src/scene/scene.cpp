@@ -126,7 +126,7 @@ Entry range_entry() {
         return s.range.given_ends ? written_value(s.range.low) + ':' + written_value(s.range.high)
                                   : written_value(s.range.limit);
       },
-      "End of the colour scale, for signed values both ends, or LOW:HIGH; 0: by --percentile");
+      "End of the colour scale, for signed values both ends, or LOW:HIGH; 0: by the percentile");
   return {"range",
           {row, {}},
           [](const Scene& s) {
@@ -227,7 +227,7 @@ Entry slice_entry() {
 void add_colours(std::vector<Entry>& all) {
   all.push_back(colour_entry());
   all.push_back(entry(Rows::text("field", kColours, ESPDIFF_AT(field),
-                                 "A field of --field of the comparison, drawn in the place of the potential")));
+                                 "A field that was compared, drawn in the place of the potential")));
   all.push_back(range_entry());
   all.push_back(entry(Rows::number("percentile", kColours, {50, 100}, ESPDIFF_AT(range.percentile),
                                    "Percentage of the values that an automatic scale covers")));
@@ -300,7 +300,7 @@ void add_context(std::vector<Entry>& all) {
             "around_A"));
   all.push_back(entry(Rows::text(
       "causes", kContext, ESPDIFF_AT(causes),
-      "A reading of --causes of the comparison, such as region: colour the source's molecule by what its residues "
+      "A reading whose causes the comparison has, such as region: colour the source's molecule by what its residues "
       "contribute, outline the reading's patch, and label the five largest")));
   all.push_back(focus_entry());
   all.push_back(entry(Rows::count("labels", kContext, {0, 50}, ESPDIFF_AT(n_labels),

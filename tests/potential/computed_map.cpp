@@ -304,11 +304,11 @@ TEST_CASE("options of a potential: each refused with its name, and those that it
     return message_of([&] { espdiff::make_potential_options(method, {{name, text}}, 300); });
   };
   const PotentialMethod pb = PotentialMethod::kPoissonBoltzmann, pme = PotentialMethod::kPme;
-  CHECK(refused(pb, "ionic-strength", "-0.1") == "ionic-strength: '-0.1' is not a number of 0 or more");
+  CHECK(refused(pb, "ionic-strength", "-0.1") == "ionic-strength: '-0.1' is not a number from 0 to 100");
   CHECK(refused(PotentialMethod::kPme, "ewaldfactor", "0.0001") ==
         "ewaldfactor: '0.0001' is not a number from 0.001 to 10");
   CHECK(refused(pb, "padding", "1e9") == "pb-padding: '1e9' is not a number from 0.001 to 1000");
-  CHECK(refused(pb, "solute_dielectric", "0") == "solute-dielectric: '0' is not a positive number");
+  CHECK(refused(pb, "solute_dielectric", "0") == "solute-dielectric: '0' is not a number from 0.001 to 1e+06");
   CHECK(refused(pb, "dielectric-boundary", "smol") == "dielectric-boundary: 'smol' is not molecular, vdw or gaussian");
   CHECK(refused(pme, "ionic-strength", "0.1") ==
         "ionic-strength is an option of the potential pb, and the potential is pme; leave it out, or take the "

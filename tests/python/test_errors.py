@@ -57,7 +57,7 @@ def test_files(tmp_path):
 def test_options(made):
     with pytest.raises(espdiff.InputError, match="grid"):
         espdiff.compare(*made, grid_spcing=1)
-    with pytest.raises(espdiff.InputError, match="`grid_spacing`: '-1' is not a positive number"):
+    with pytest.raises(espdiff.InputError, match="`grid_spacing`: '-1' is not a number from 0.001 to 20"):
         espdiff.compare(*made, grid_spacing=-1)
     with pytest.raises(espdiff.InputError, match="cuda"):
         espdiff.compare(*made, device="gpu")

@@ -181,7 +181,7 @@ def test_what_cannot_be(package, pair):
         package.compare(0.5, pair[1])
     with pytest.raises(espdiff.InputError, match="grid"):
         package.compare(*pair, grid_spcing=1)
-    with pytest.raises(espdiff.InputError, match="`grid_spacing`: '-1' is not a positive number"):
+    with pytest.raises(espdiff.InputError, match="`grid_spacing`: '-1' is not a number from 0.001 to 20"):
         package.compare(*pair, grid_spacing=-1)
     with pytest.raises(espdiff.IoError, match="absent.pqr"):
         package.compare("absent.pqr", pair[1])

@@ -354,12 +354,13 @@ TEST_CASE("the command line reports errors and leaves no file") {
   refused("render " + vtp + png, 1, "DISPLAY is not set", "env -u DISPLAY");
   refused("render " + scratch.file("absent.vtp") + png, 2, "absent.vtp: no such file");
   refused("render " + vtp + png + " --scene " + scratch.file("no.json"), 2, "no.json: no such scene file");
-  refused("render " + vtp + png + " --range wide", 2, "--range wide: give one number, such as 5 for -5 to 5, or two");
-  refused("render " + vtp + png + " --range 3:x", 2, "give one number");
-  refused("render " + vtp + png + " --range 1x:2", 2, "--range 1x:2: give one number");
-  refused("render " + vtp + png + " --range 1:2x", 2, "give one number");
+  refused("render " + vtp + png + " --range wide", 2,
+          "--range: 'wide' is not one number, such as 5 for -5 to 5, or two");
+  refused("render " + vtp + png + " --range 3:x", 2, "--range: '3:x' is not one number");
+  refused("render " + vtp + png + " --range 1x:2", 2, "--range: '1x:2' is not one number");
+  refused("render " + vtp + png + " --range 1:2x", 2, "--range: '1:2x' is not one number");
   refused("render " + vtp + png + " --layout round", 2, "round");
-  refused("render " + vtp + png + " --morph 2", 2, "a morph goes from 0 (source) to 1 (target)");
+  refused("render " + vtp + png + " --morph 2", 2, "--morph: '2' is not a number from 0 to 1");
   CHECK(scratch.n_files() == 0);
 }
 

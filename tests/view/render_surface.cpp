@@ -297,10 +297,10 @@ TEST_CASE("invalid surfaces are refused with the reason") {
   CHECK(contains(message(vtp, scratch.file("no/such/folder.png"), {}), "cannot write: "));
   Scene options;
   options.width = 20000;
-  CHECK(contains(message(vtp, png, options), "image size 20000 x 1100 is out of range"));
+  CHECK(contains(message(vtp, png, options), "width: '20000' is not a whole number from 400 to 6000"));
   options = {};
   options.n_views = 0;
-  CHECK(contains(message(vtp, png, options), "0 views cannot be drawn; use 1 to 4"));
+  CHECK(contains(message(vtp, png, options), "views: '0' is not a whole number from 1 to 4"));
   options = {};
   options.opacity.least = 2;
   CHECK_THROWS_AS(render_surface(vtp, png, options), InputError);

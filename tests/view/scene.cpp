@@ -87,25 +87,44 @@ TEST_CASE("invalid scene files are refused with the reason") {
   CHECK(contains(message_for(scratch, R"({"width": 4294967297})"),
                  "the value of 'width' is a whole number out of range"));
   CHECK(contains(message_for(scratch, R"({"range": [1]})"), "the value of 'range' has the wrong type"));
-  CHECK(contains(message_for(scratch, R"({"layout": "round"})"), "no layout 'round'; use turned, linked or split"));
+  CHECK(contains(message_for(scratch, R"({"layout": "round"})"), "layout: 'round' is not turned, linked or split"));
   CHECK(contains(message_for(scratch, R"({"molecule": "balls"})"),
-                 "no molecule style 'balls'; use none, cartoon, sticks or lines"));
+                 "molecule: 'balls' is not none, cartoon, sticks or lines"));
   CHECK(contains(message_for(scratch, R"({"colours": "rainbow"})"),
-                 "no colours 'rainbow'; use red-blue, cool-warm or purple"));
+                 "colours: 'rainbow' is not red-blue, cool-warm or purple-orange"));
 }
 
 TEST_CASE("values out of range are refused with the range") {
   const ScratchFolder scratch;
-  CHECK(contains(message_for(scratch, R"({"morph": 1.5})"), "a morph goes from 0 (source) to 1 (target)"));
-  CHECK(contains(message_for(scratch, R"({"split": -1})"), "a split lies at 0 (left) to 1 (right)"));
-  CHECK(contains(message_for(scratch, R"({"zoom": 0})"), "use 0.1 to 50"));
-  CHECK(contains(message_for(scratch, R"({"labels": 99})"), "use 0 to 50"));
-  CHECK(contains(message_for(scratch, R"({"offsets_A": [-1]})"), "offset surfaces lie 0 to 10 Angstrom outside"));
+  CHECK(contains(message_for(scratch, R"({"morph": 1.5})"), "morph: '1.5' is not a number from 0 to 1"));
+  CHECK(contains(message_for(scratch, R"({"split": -1})"), "split: '-1' is not a number from 0 to 1"));
+  CHECK(contains(message_for(scratch, R"({"zoom": 0})"), "zoom: '0' is not a number from 0.1 to 50"));
+  CHECK(contains(message_for(scratch, R"({"labels": 99})"), "labels: '99' is not a whole number from 0 to 50"));
+  CHECK(contains(message_for(scratch, R"({"offsets_A": [-1]})"),
+                 "offsets: '-1' is not a number above 0, at most 10, or up to 3 of these"));
   CHECK(contains(message_for(scratch, R"({"offsets_A": [1], "layout": "linked"})"), "need the layout turned"));
   CHECK(contains(message_for(scratch, R"({"layout": "split", "molecule": "lines"})"), "draws no molecules"));
-  CHECK(contains(message_for(scratch, R"({"opacity": 0.1})"), "no less than the least opacity"));
-  CHECK(contains(message_for(scratch, R"({"slice": 2})"), "a slice lies at 0 (front) to 1 (back)"));
-  CHECK(contains(message_for(scratch, R"({"field_lines": -1})"), "use 0 to 2000"));
+  CHECK(contains(message_for(scratch, R"({"opacity": 0.1})"), "opacity 0.1 is below least-opacity 0.25"));
+  CHECK(contains(message_for(scratch, R"({"slice": 2})"), "slice: '2' is not a number from 0 to 1"));
+  CHECK(contains(message_for(scratch, R"({"field_lines": -1})"),
+                 "field-lines: '-1' is not a whole number from 0 to 2000"));
+}
+
+TEST_CASE("each option of a scene changes one entry of its file, and refuses what the file refuses") {
+  for (const SceneOption& option : scene_options()) {
+    INFO(option.name);
+    Scene scene;
+    option.set(scene, option.get(unusual_scene()));
+    CHECK(option.get(scene) == option.get(unusual_scene()));
+    option.set(scene, option.get({}));
+    CHECK(option.get(scene) == option.get({}));
+  }
+  Scene scene;
+  CHECK(contains(message_of([&] {
+                   scene.zoom = 99;
+                   check(scene);
+                 }),
+                 "zoom: '99' is not a number from 0.1 to 50"));
 }
 
 TEST_CASE("each key of the viewer changes something, and the help lists every key once") {

@@ -174,7 +174,7 @@ test "every option of Poisson-Boltzmann's table, as the command line has it" {
     # VMD has single precision coordinates.
     check "the same map" {[largest_difference {*}$lists] < 1e-3 * [largest [lindex $lists 0]]}
     check_refused {espdiff potential -mol $molecule -method pb -loadmol none -dxfile $scratch/x.dx -ionic-strength -1} \
-        {ESPDIFF INPUT} "'-1' is not a number of 0 or more"
+        {ESPDIFF INPUT} "'-1' is not a number from 0 to 100"
     check_refused {espdiff potential -mol $molecule -method pb -loadmol none -dxfile $scratch/x.dx -ewaldfactor 0.3} \
         {ESPDIFF INPUT} "is an option of the potential pme, and the potential is pb"
     check_refused {espdiff potential -mol $molecule -method pb -ionic_strength 0.1} {ESPDIFF INPUT} \

@@ -6,6 +6,7 @@
 #if defined(ESPDIFF_HAVE_VTK)
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 
 #include "base/error.h"
 #include "base/text/printable.h"
@@ -46,7 +47,7 @@ int render_verb(RenderArguments& a, const Context& context) {
   for (const std::string& note : render_surface(a.input, a.output, scene, saved.get())) {
     std::fprintf(stderr, "espdiff: note: %s\n", printable(note).c_str());
   }
-  if (!is_named) std::printf("written        %s\n", printable(a.output).c_str());
+  if (!is_named) std::cout << "written        " << printable(a.output) << '\n';
   return 0;
 }
 

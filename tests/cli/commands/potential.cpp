@@ -63,6 +63,27 @@ TEST_CASE("potential: a map as DX and as VTI, the same values, mean zero") {
   CHECK(read_file(folder.file("a.dx")) == read_file(folder.file("b.dx")));
 }
 
+TEST_CASE("a verb whose output is not named names it after its input, in the working folder, and never replaces it") {
+  const ScratchFolder folder;
+  folder.write("helix.pqr", helix(1));
+  const std::string here = "cd " + folder.file("") + "; ";
+  for (const auto& [command, output] : std::vector<std::pair<std::string, std::string>>{
+           {"potential helix.pqr --method coulomb", "helix.dx"}, {"surface helix.pqr", "helix.vtp"}}) {
+    const Outcome first = run_espdiff(command + " --device cpu", here);
+    CHECK_MESSAGE(first.status == 0, first.err);
+    CHECK(contains(first.out, "written        " + output + "\n"));
+    CHECK(std::filesystem::exists(folder.file(output)));
+    const Outcome second = run_espdiff(command + " --device cpu", here);
+    CHECK(second.status == 2);
+    CHECK(contains(second.err, output));
+    CHECK(contains(second.err, "--overwrite"));
+  }
+  // A structure with charges is prepared into itself.
+  const Outcome prepare = run_espdiff("prepare helix.pqr", here);
+  CHECK(prepare.status == 2);
+  CHECK(contains(prepare.err, "helix.pqr"));
+}
+
 TEST_CASE("potential: frames, their mean, variance and error, superposed") {
   const ScratchFolder folder;
   const std::string molecule = folder.write("a.pqr", helix(4));
@@ -130,23 +151,24 @@ TEST_CASE("potential: wrong input gives one line and leaves nothing") {
     std::string arguments;
     const char* expected;
   };
-  for (const Case& c : {Case{no_charge, "zero.pqr: has no charges"},
-                        {plain, "has no charges"},
-                        {molecule + " --frames 2", "frame 2 is not among the frames 0 to 1"},
-                        {molecule + " --cell '0 0 0'", "has 3 numbers; give twelve"},
-                        {molecule + " --cell '0 0 0 10 0 0 0 10 0 0 0 -10'", "must be positive"},
-                        {molecule + " --cell '0 0 0 10 0 0 20 0 0 0 0 10'", "span a volume of 0"},
-                        {molecule + " --grid 0", "not above 0"},
-                        {molecule + " --grid '8 8'", "has 2 numbers"},
-                        {molecule + " --grid '4 8 8'", "each edge needs 6"},
-                        {molecule + " --grid 4096 --precision double", "would fit"},
-                        {molecule + " --order 12", "spline order 12 is not among 4 to 8"},
-                        {molecule + " --compatible --order 6", "PMEPot's is 4"},
-                        {molecule + " --compatible --align ca", "`compatible` with superposition"},
-                        {molecule + " --cell '0 0 0 9 0 0 0 9 0 0 0 9' --pad 3", "a cell and a padding"},
-                        {molecule + " --method coulomb --dielectric 0", "--dielectric: '0' is not a positive number"},
-                        {molecule + " --variance " + folder.file("v.dx") + " --frames 0", "need at least 2 frames"},
-                        {folder.file("absent.pqr"), "absent.pqr"}}) {
+  for (const Case& c :
+       {Case{no_charge, "zero.pqr: has no charges"},
+        {plain, "has no charges"},
+        {molecule + " --frames 2", "frame 2 is not among the frames 0 to 1"},
+        {molecule + " --cell '0 0 0'", "has 3 numbers; give twelve"},
+        {molecule + " --cell '0 0 0 10 0 0 0 10 0 0 0 -10'", "must be positive"},
+        {molecule + " --cell '0 0 0 10 0 0 20 0 0 0 0 10'", "span a volume of 0"},
+        {molecule + " --grid 0", "not above 0"},
+        {molecule + " --grid '8 8'", "has 2 numbers"},
+        {molecule + " --grid '4 8 8'", "each edge needs 6"},
+        {molecule + " --grid 4096 --precision double", "would fit"},
+        {molecule + " --order 12", "--spline: '12' is not a whole number from 4 to 8"},
+        {molecule + " --compatible --order 6", "PMEPot's is 4"},
+        {molecule + " --compatible --align ca", "`compatible` with superposition"},
+        {molecule + " --cell '0 0 0 9 0 0 0 9 0 0 0 9' --pad 3", "a cell and a padding"},
+        {molecule + " --method coulomb --dielectric 0", "--dielectric: '0' is not a number from 0.001 to 1e+06"},
+        {molecule + " --variance " + folder.file("v.dx") + " --frames 0", "need at least 2 frames"},
+        {folder.file("absent.pqr"), "absent.pqr"}}) {
     const Outcome outcome =
         run_espdiff("potential " + c.arguments + " --device cpu --overwrite -o " + folder.file("m.dx"));
     CAPTURE(c.arguments);
@@ -295,16 +317,16 @@ TEST_CASE("options of potentials that cannot be are refused in one line, and not
     std::string arguments, part;
   };
   for (const auto& c : std::vector<Case>{
-           {"--ionic-strength -0.1", "--ionic-strength: '-0.1' is not a number of 0 or more"},
-           {"--solute-dielectric 0", "--solute-dielectric: '0' is not a positive number"},
-           {"--solvent-dielectric -2", "--solvent-dielectric: '-2' is not a positive number"},
-           {"--temperature 0", "--temperature: '0' is not a positive number"},
-           {"--temperature -5", "--temperature: '-5' is not a positive number"},
-           {"--solute-dielectric nan", "--solute-dielectric: 'nan' is not a positive number"},
-           {"--potential coulomb --dielectric 0", "--dielectric: '0' is not a positive number"},
-           {"--pb-spacing 0", "--pb-spacing: '0' is not a positive number"},
+           {"--ionic-strength -0.1", "--ionic-strength: '-0.1' is not a number from 0 to 100"},
+           {"--solute-dielectric 0", "--solute-dielectric: '0' is not a number from 0.001 to 1e+06"},
+           {"--solvent-dielectric -2", "--solvent-dielectric: '-2' is not a number from 0.001 to 1e+06"},
+           {"--temperature 0", "--temperature: '0' is not a number from 1 to 100000"},
+           {"--temperature -5", "--temperature: '-5' is not a number from 1 to 100000"},
+           {"--solute-dielectric nan", "--solute-dielectric: 'nan' is not a number from 0.001 to 1e+06"},
+           {"--potential coulomb --dielectric 0", "--dielectric: '0' is not a number from 0.001 to 1e+06"},
+           {"--pb-spacing 0", "--pb-spacing: '0' is not a number from 0.001 to 20"},
            {"--pb-spacing 0.01", "has more than 2e9 points"},
-           {"--pb-max-cycles 0", "--pb-max-cycles: '0' is not a whole number of 1 or more"},
+           {"--pb-max-cycles 0", "--pb-max-cycles: '0' is not a whole number from 1 to 1000000"},
            {"--potential pme --ionic-strength 0.1", "ionic-strength is an option of the potential pb"},
            {"--potential none --dielectric 4", "--dielectric is of computed potentials, and none is computed"},
            {"--offset -1", "--offset: '-1' is not a distance of 0 to 20 Angstrom"}}) {
