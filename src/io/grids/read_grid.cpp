@@ -22,7 +22,7 @@ std::string names_of_formats(bool with_arrays_only) {
 }
 
 /// The format of a map. @throws InputError for a file that is none
-const GridFormat& format_of(const std::string& path, std::string_view head) {
+const GridFormat& format_of_map(const std::string& path, std::string_view head) {
   const FileKind kind = recognise(head);
   for (const GridFormat& format : grid_formats()) {
     if (format.is(head, kind)) return format;
@@ -37,7 +37,7 @@ const GridFormat& format_of(const std::string& path, std::string_view head) {
 GridFile read_grid_file(const std::string& path, const GridOptions& options) {
   const GridFormat* format = nullptr;
   FileContent file = read_input(path, [&](std::string_view head) {
-    format = &format_of(path, head);
+    format = &format_of_map(path, head);
     if (options.array.empty() || format->has_arrays) return;
     throw InputError(path + ": array '" + options.array + "' was asked for, but only " + names_of_formats(true) +
                      " files have named arrays");

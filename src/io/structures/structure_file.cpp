@@ -50,7 +50,7 @@ std::string other_format() {
 }
 
 /// The format of a structure. @throws InputError for a file that is none
-const StructureFormat& format_of(const std::string& path, std::string_view head) {
+const StructureFormat& format_of_structure(const std::string& path, std::string_view head) {
   const FileKind kind = recognise(head);
   for (const StructureFormat& format : structure_formats()) {
     if (format.is(head, kind)) return format;
@@ -108,7 +108,7 @@ class TrajectoryModels : public StructureModels {
 
 StructureFile::StructureFile(const std::string& path) : path_(path) {
   const StructureFormat* format = nullptr;
-  FileContent file = read_input(path, [&](std::string_view head) { format = &format_of(path, head); });
+  FileContent file = read_input(path, [&](std::string_view head) { format = &format_of_structure(path, head); });
   sha256_ = file.sha256;
   models_ = format->open(std::move(file));
 }
