@@ -62,11 +62,11 @@ const std::unordered_map<std::string_view, int>& groups() {
   static const std::unordered_map<std::string_view, int> table = {
       {"HEM", -2}, {"HEC", -2}, {"OH", -1},  {"SO4", -2}, {"PO4", -2}, {"PI", -1},  {"NO3", -1}, {"NH4", 1},
       {"ACT", -1}, {"ACY", -1}, {"FMT", -1}, {"CIT", -3}, {"FLC", -3}, {"TLA", -2}, {"MLI", -2}, {"OXM", -1},
-      {"SCN", -1}, {"AZI", -1}, {"CO3", -2}, {"BCT", -1}, {"GOL", 0},  {"EDO", 0},  {"MPD", 0},  {"MRD", 0},
-      {"IPA", 0},  {"EOH", 0},  {"DMS", 0},  {"PEG", 0},  {"PGE", 0},  {"PG4", 0},  {"1PE", 0},  {"BME", 0},
-      {"NAG", 0},  {"BMA", 0},  {"MAN", 0},  {"FUC", 0},  {"GLC", 0},  {"ATP", -4}, {"ADP", -3}, {"AMP", -2},
-      {"GTP", -4}, {"GDP", -3}, {"NAD", -1}, {"NAI", -2}, {"NAP", -3}, {"NDP", -4}, {"FMN", -2}, {"FAD", -2},
-      {"SF4", -2}, {"FES", -2}, {"ACE", 0},  {"NME", 0},  {"NH2", 0},
+      {"SCN", -1}, {"AZI", -1}, {"CYN", -1}, {"CO3", -2}, {"BCT", -1}, {"GOL", 0},  {"EDO", 0},  {"MPD", 0},
+      {"MRD", 0},  {"IPA", 0},  {"EOH", 0},  {"DMS", 0},  {"PEG", 0},  {"PGE", 0},  {"PG4", 0},  {"1PE", 0},
+      {"BME", 0},  {"NAG", 0},  {"BMA", 0},  {"MAN", 0},  {"FUC", 0},  {"GLC", 0},  {"ATP", -4}, {"ADP", -3},
+      {"AMP", -2}, {"GTP", -4}, {"GDP", -3}, {"NAD", -1}, {"NAI", -2}, {"NAP", -3}, {"NDP", -4}, {"FMN", -2},
+      {"FAD", -2}, {"SF4", -2}, {"FES", -2}, {"ACE", 0},  {"NME", 0},  {"NH2", 0},
   };
   return table;
 }

@@ -39,6 +39,7 @@ TEST_CASE("charge_of_group: ions and common groups") {
   CHECK(charge_of_group("CL", 1) == -1);
   CHECK(charge_of_group("SO4", 5) == -2);
   CHECK(charge_of_group("HEM", 43) == -2);
+  CHECK(charge_of_group("CYN", 2) == -1);
   CHECK_FALSE(charge_of_group("XYZ", 3).has_value());
   CHECK(charge_of_group("CO", 1) == 2);
   CHECK_FALSE(charge_of_group("CO", 2).has_value());  // carbon monoxide

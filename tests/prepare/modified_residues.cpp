@@ -260,3 +260,17 @@ TEST_CASE("rename_residues: the phosphate at the 5' end is left out with a warni
         std::vector<std::string>{"the phosphate at the 5' end was left out (-2 e), since no force field of PDB2PQR has "
                                  "it: G 1 of chain A"});
 }
+
+TEST_CASE("rename_residues: CHARMM's nucleotides by their sugar, a protonated acid, GROMACS' oxygens at the end") {
+  Molecule molecule = molecule_from(
+      row_of_names("ADE", 1, {"C1'", "C3'", "N9"}) + row_of_names("GUA", 2, {"C1'", "O2'", "N9"}) +
+      row_of_names("ASP", 3, {"N", "CA", "C", "O", "OD1", "OD2"}) +
+      record(90, " HD1", "ASP", 3, {6.0, 0.96, 9.0}, "H") + row_of_names("GLU", 4, {"N", "CA", "C", "O1", "O2"}));
+  Preparation preparation;
+  rename_residues(molecule, preparation);
+  CHECK(preparation.renamed ==
+        std::vector<std::string>{"ADE 1 of chain A as DA", "GUA 2 of chain A as G", "ASP 3 of chain A as ASH"});
+  CHECK(molecule.size() == 17);  // without the proton, which PDB2PQR places at OD2
+  CHECK(molecule.atoms[15].name == "O");
+  CHECK(molecule.atoms[16].name == "OXT");
+}

@@ -323,6 +323,11 @@ TEST_CASE("prepare_molecule: the program gets fixed names in a folder of its own
   const std::string own = message_of([&] { prepare(molecule); });
   CHECK(own.find(unknown) != std::string::npos);
   CHECK(own.find("foreign") == std::string::npos);
+  program("echo 'WARNING:Unable to find amino or nucleic acid definition for ZN. Parsing as new residue.'; exit 1");
+  CHECK(message_of([&] { prepare(molecule); }).find(unknown) != std::string::npos);
+  program("echo 'Unable to debump biomolecule. Found gap in biomolecule structure for atom HZ3 LYN'; exit 1");
+  CHECK(message_of([&] { prepare(molecule); }).find("it: a hydrogen of the file is none of its residue") !=
+        std::string::npos);
   program("truncate -s 600M output.pqr; sleep 60");
   CHECK(message_of([&] { prepare(molecule); }).find("PDB2PQR wrote more than 512 MB and was ended") !=
         std::string::npos);

@@ -52,6 +52,8 @@ bool MoleculeBuilder::wants(const std::string& residue_name, bool hetero) {
     ++n_water_;
     return false;
   }
+  // The Orientations of Proteins in Membranes database marks the membrane's planes by thousands of these.
+  if (hetero && residue_name == "DUM") return false;
   if (!options_.include_hetero && hetero && !is_water_name(residue_name)) {
     ++n_hetero_;
     return false;

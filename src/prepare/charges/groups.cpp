@@ -13,6 +13,7 @@
 #include "base/molecule/input_options.h"
 #include "base/molecule/residue_label.h"
 #include "base/not_a_number.h"
+#include "prepare/charges/caps.h"
 #include "prepare/charges/ion_table.h"
 #include "prepare/charges/modified_residues.h"
 #include "prepare/charges/open_babel.h"
@@ -210,14 +211,13 @@ void keep_torn_chains(const std::vector<ResidueKind>& kinds, std::vector<GroupSo
 
 std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vector<std::int32_t>& ligand_of,
                                        const ChargeOptions& options) {
-  static const std::set<std::string_view> caps{"ACE", "NME", "NHE", "NH2", "N-M"};
   const auto atoms = atoms_of_residues(molecule);
   const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
   const bool has_open_babel = options.ligands_auto && !find_open_babel().empty();
   std::vector<GroupSource> sources(kinds.size(), GroupSource::kNone);
   for (std::size_t r = 0; r < kinds.size(); ++r) {
     const std::string& name = molecule.residues[r].name;
-    if (atoms[r].empty() || ligand_of[r] >= 0 || caps.count(name) > 0) continue;
+    if (atoms[r].empty() || ligand_of[r] >= 0 || is_cap_name(name)) continue;
     if (kinds[r] == ResidueKind::kAminoAcid) sources[r] = amino_acid_source(molecule, r, atoms[r], has_open_babel);
     if (kinds[r] == ResidueKind::kNucleotide) sources[r] = nucleotide_source(molecule, r, atoms, has_open_babel);
     if (kinds[r] != ResidueKind::kOther) continue;
@@ -230,7 +230,7 @@ std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vect
     } else if (is_haem(name) && has_haem_names(molecule, atoms[r])) {
       sources[r] = GroupSource::kHaem;
     } else if (has_open_babel) {
-      sources[r] = GroupSource::kOpenBabel;
+      sources[r] = is_bound_as_cap(molecule, r, atoms) ? GroupSource::kCap : GroupSource::kOpenBabel;
     }
   }
   keep_torn_chains(kinds, sources);
@@ -250,10 +250,11 @@ Groups charge_groups(const Molecule& molecule, const std::vector<GroupSource>& s
       groups.lines.push_back(label + ": a phosphate of -2 e (CHARMM's charges)");
       continue;
     }
-    if (sources[r] == GroupSource::kModified) {
+    if (sources[r] == GroupSource::kModified || sources[r] == GroupSource::kCap) {
       int net_charge = 0;
       const Molecule modified = charge_modified_residue(molecule, r, options.ph, net_charge, progress);
-      const bool agrees = agrees_with_formula(groups, molecule, modified, net_charge, true);
+      const bool agrees =
+          agrees_with_formula(groups, molecule, modified, net_charge, sources[r] == GroupSource::kModified);
       append_residue(groups.modified, modified);
       groups.guessed.push_back(label + " (" + in_elementary_charges(net_charge) + ")");
       groups.lines.push_back(label + ": " + in_elementary_charges(net_charge) +

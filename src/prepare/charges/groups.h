@@ -14,13 +14,14 @@ struct ChargeOptions;
 
 /// Where the charges of a group come from that no force field of PDB2PQR has.
 /// (beside the chains), or that it does not know or could not complete (in them).
-enum class GroupSource { kNone, kIon, kGas, kHaem, kAdditive, kOpenBabel, kPhosphate, kModified, kTorn };
+enum class GroupSource { kNone, kIon, kGas, kHaem, kAdditive, kOpenBabel, kPhosphate, kModified, kCap, kTorn };
 
 /// [residue] of the groups beside the chains: ions of one atom by ion_parameters(); gases (O2, CO, NO,
 /// Xe, Kr, Ar), which get no charge; haem (HEM, HEC); additives by a list
-/// of names, which are left out; every other group by Open Babel, if options.ligands_auto and it is there. kNone for
-/// all that PDB2PQR charges or that gets no charge: chains, caps, ligands with a MOL2 file. Amino acids by
-/// amino_acid_source(), of which torn ones are left out as additives are, unless they are more than a tenth.
+/// of names, which are left out; every other group by Open Babel, if options.ligands_auto and it is there, as a kCap
+/// where it is bound to the end of a chain next to it (is_bound_as_cap()). kNone for all that PDB2PQR charges or that
+/// gets no charge: chains, caps, ligands with a MOL2 file. Amino acids by amino_acid_source(), of which torn ones are
+/// left out as additives are, unless they are more than a tenth.
 /// @param ligand_of [residue] nonnegative where a MOL2 file has its charges
 std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vector<std::int32_t>& ligand_of,
                                        const ChargeOptions& options);

@@ -13,6 +13,7 @@
 #include "align/protonation.h"
 #include "align/residue_names.h"
 #include "io/molecules/select_atoms.h"
+#include "prepare/charges/caps.h"
 #include "prepare/charges/open_babel.h"
 #include "prepare/charges/preparation.h"
 
@@ -75,31 +76,74 @@ void replace_selenomethionine(Molecule& molecule, Preparation& preparation) {
   }
 }
 
+void rename_residue(Residue& residue, const std::string& name, Preparation& preparation) {
+  if (residue.name == name) return;
+  preparation.renamed.push_back(residue_in_words(residue) + " as " + name);
+  residue.name = name;
+}
+
 /// Insight II, and the models that it made, name residues by their charges.
 void name_charged_residues(Molecule& molecule, Preparation& preparation) {
   constexpr std::pair<std::string_view, const char*> kNames[] = {
       {"AR+", "ARG"}, {"LY+", "LYS"}, {"AS-", "ASP"}, {"GL-", "GLU"}};
   for (Residue& residue : molecule.residues) {
     for (const auto& [name, usual] : kNames) {
-      if (residue.name != name) continue;
-      preparation.renamed.push_back(residue_in_words(residue) + " as " + usual);
-      residue.name = usual;
-      break;
+      if (residue.name == name) rename_residue(residue, usual, preparation);
     }
   }
 }
 
-/// PDB2PQR would add O2'.
-void name_deoxynucleotides(Molecule& molecule, Preparation& preparation) {
+/// CHARMM has one name for both sugars, as the PDB had; to residues without O2' of such a name PDB2PQR would add it.
+void name_nucleotides(Molecule& molecule, Preparation& preparation) {
+  constexpr std::pair<std::string_view, const char*> kNames[] = {{"ADE", "A"}, {"CYT", "C"}, {"GUA", "G"},
+                                                                 {"THY", "T"}, {"URA", "U"}, {"URI", "U"}};
+  const auto atoms = atoms_of_residues(molecule);
+  const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
+  for (std::size_t r = 0; r < atoms.size(); ++r) {
+    std::string name = molecule.residues[r].name;
+    for (const auto& [charmm, usual] : kNames) {
+      if (name == charmm && kinds[r] == ResidueKind::kNucleotide) name = usual;
+    }
+    if ((name == "A" || name == "C" || name == "G" || name == "T") && !atom_named(molecule, atoms[r], "O2'"))
+      name.insert(0, "D");
+    rename_residue(molecule.residues[r], name, preparation);
+  }
+}
+
+/// A proton on a carboxyl group says that it is neutral. PDB2PQR takes it from residues of that name only.
+void name_neutral_acids(Molecule& molecule, Preparation& preparation) {
+  constexpr double kHydroxyl_A = 1.3;
+  const auto atoms = atoms_of_residues(molecule);
+  std::vector<bool> keep(molecule.size(), true);
+  for (std::size_t r = 0; r < atoms.size(); ++r) {
+    const bool is_asp = molecule.residues[r].name == "ASP";
+    if (!is_asp && molecule.residues[r].name != "GLU") continue;
+    for (const char* const oxygen : {is_asp ? "OD1" : "OE1", is_asp ? "OD2" : "OE2"}) {
+      const std::optional<std::size_t> bound = atom_named(molecule, atoms[r], oxygen);
+      for (const std::size_t i : atoms[r]) {
+        if (!bound || !is_proton(molecule.atoms[i]) ||
+            norm(molecule.positions[i] - molecule.positions[*bound]) > kHydroxyl_A)
+          continue;
+        keep[i] = false;
+        rename_residue(molecule.residues[r], is_asp ? "ASH" : "GLH", preparation);
+      }
+    }
+  }
+  if (std::find(keep.begin(), keep.end(), false) != keep.end()) molecule = keep_atoms(molecule, keep);
+}
+
+/// GROMACS names the oxygens at the end of a chain O1 and O2 (GROMOS, OPLS), or OC1 and OC2 (AMBER).
+void name_end_oxygens(Molecule& molecule) {
+  constexpr std::pair<const char*, const char*> kNames[] = {{"O1", "O2"}, {"OC1", "OC2"}};
   const auto atoms = atoms_of_residues(molecule);
   for (std::size_t r = 0; r < atoms.size(); ++r) {
-    Residue& residue = molecule.residues[r];
-    if (residue.name != "A" && residue.name != "C" && residue.name != "G" && residue.name != "T") continue;
-    const auto is_oxygen = [&](std::size_t i) { return normalized_atom_name(molecule.atoms[i].name) == "O2'"; };
-    if (std::any_of(atoms[r].begin(), atoms[r].end(), is_oxygen)) continue;
-    const std::string old = residue_in_words(residue);
-    residue.name.insert(0, "D");
-    preparation.renamed.push_back(old + " as " + residue.name);
+    if (!is_known_amino_acid(molecule.residues[r].name) || atom_named(molecule, atoms[r], "O")) continue;
+    for (const auto& [first, second] : kNames) {
+      const auto o = atom_named(molecule, atoms[r], first), oxt = atom_named(molecule, atoms[r], second);
+      if (!o || !oxt) continue;
+      molecule.atoms[*o].name = "O";
+      molecule.atoms[*oxt].name = "OXT";
+    }
   }
 }
 
@@ -254,7 +298,10 @@ void append_residue(Molecule& all, const Molecule& one) {
 void rename_residues(Molecule& molecule, Preparation& preparation) {
   replace_selenomethionine(molecule, preparation);
   name_charged_residues(molecule, preparation);
-  name_deoxynucleotides(molecule, preparation);
+  name_nucleotides(molecule, preparation);
+  name_neutral_acids(molecule, preparation);
+  name_end_oxygens(molecule);
+  name_caps(molecule, preparation);
   drop_end_phosphates(molecule, preparation);
 }
 

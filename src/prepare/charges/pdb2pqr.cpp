@@ -28,6 +28,7 @@
 #include "io/molecules/write_pdb.h"
 #include "io/structures/structure_file.h"
 #include "prepare/charges/cache.h"
+#include "prepare/charges/caps.h"
 #include "prepare/charges/ligand.h"
 #include "prepare/charges/modified_residues.h"
 #include "prepare/charges/python_start.h"
@@ -216,13 +217,14 @@ std::string reason_in(const std::string& log) {
       {"Unknown format code 'i'", "more than a tenth of the heavy atoms of its residues are missing"},
       {"missing too many", "more than a tenth of the heavy atoms of its residues are missing"},
       {"does not contain any", "no residue of it is known to the force field"},
+      {"Found gap", "a hydrogen of the file is none of its residue by this name"},
       {"Unable to debump", "atoms overlap, and moving them apart failed"},
       {"while trying to debump", "atoms overlap, and moving them apart failed"},
       {"Too many chains", "it has more chains than PDB2PQR has names for"},
       {"non-integer charge", "the sum of the charges is not a whole number"},
       {"noninteger", "the sum of the charges is not a whole number"},
       {"Found no known", "no residue of it is known to the force field"},
-      {"Unable to find", "a residue lacks atoms that the others could be placed by"},
+      {"No biomolecule heavy atoms", "no residue of it is known to the force field"},
       {"Too few atoms present", "a residue has too few atoms to place the missing ones by"}};
   for (const auto& [mark, words] : known) {
     if (log.find(mark) != std::string::npos) return words;
@@ -479,15 +481,16 @@ Molecule without_sources(const Molecule& molecule, const std::vector<GroupSource
 bool is_left_out(GroupSource source) { return source == GroupSource::kAdditive || source == GroupSource::kTorn; }
 
 bool is_in_chain(GroupSource source) {
-  return source == GroupSource::kNone || source == GroupSource::kPhosphate || source == GroupSource::kModified;
+  return source == GroupSource::kNone || source == GroupSource::kPhosphate || source == GroupSource::kModified ||
+         source == GroupSource::kCap;
 }
 
 /// What PDB2PQR charges. The groups that get charges otherwise become left out, so that PROPKA sees them.
 /// @param states [residue] or empty; those of the groups are taken out
 Molecule set_aside(const Molecule& molecule, const std::vector<GroupSource>& sources,
                    std::vector<std::string>& states) {
-  Molecule chains =
-      without_sources(with_known_residues(molecule, sources), sources, [](GroupSource s) { return !is_in_chain(s); });
+  Molecule chains = without_sources(with_bare_caps(with_known_residues(molecule, sources), sources), sources,
+                                    [](GroupSource s) { return !is_in_chain(s); });
   const auto atoms = atoms_of_residues(molecule);
   std::vector<std::string> kept;
   for (std::size_t r = 0; r < sources.size(); ++r) {
@@ -572,6 +575,7 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
     prepared.molecule = run_with_ligands(run, given, kept_states, ligands);
   }
   restore_residues(prepared.molecule, before, sources, groups.modified);
+  charge_caps(prepared.molecule, before, sources, groups.modified, done.force_field);
   append(prepared.molecule, groups.charged);
   prepared.molecule.name = molecule.name;
   take_knowledge(before, prepared.molecule);

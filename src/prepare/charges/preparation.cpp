@@ -10,6 +10,7 @@
 #include "align/residue_charges.h"
 #include "align/residue_names.h"
 #include "base/error.h"
+#include "prepare/charges/caps.h"
 #include "prepare/charges/modified_residues.h"
 #include "prepare/charges/open_babel.h"
 
@@ -185,14 +186,13 @@ void require_known_names(const Molecule& before, const std::vector<GroupSource>&
                          const std::vector<std::int32_t>& ligand_of, const std::string& force_field) {
   // CHARMM's list has more than chains; what it lacks is found afterwards.
   if (force_field == "charmm") return;
-  static const std::set<std::string> caps{"ACE", "NME", "NHE", "NH2", "N-M"};
   const auto atoms = atoms_of_residues(before);
   const std::vector<ResidueKind> kinds = residue_kinds(before, atoms);
   Uncharged uncharged;
   for (std::size_t r = 0; r < kinds.size(); ++r) {
     const std::string& name = before.residues[r].name;
     const bool is_known = kinds[r] == ResidueKind::kOther
-                              ? ligand_of[r] >= 0 || caps.count(name) > 0 || sources[r] != GroupSource::kNone
+                              ? ligand_of[r] >= 0 || is_cap_name(name) || sources[r] != GroupSource::kNone
                           : kinds[r] == ResidueKind::kAminoAcid
                               ? sources[r] != GroupSource::kNone || ligand_of[r] >= 0 || is_known_amino_acid(name)
                               : kinds[r] != ResidueKind::kNucleotide || has_nucleotides(force_field) ||

@@ -201,6 +201,7 @@ TEST_CASE("read_pdb: of two residues in one place one is read, with the atoms th
 
 TEST_CASE("read_pdb: filters") {
   const std::string text = text_of({}) + text_of({"HETATM", "ZN  ", ' ', " ZN ", 'A', 2, ' ', 1, 1, "ZN"}) +
+                           text_of({"HETATM", " O  ", ' ', "DUM ", 'A', 3, ' ', 4, 1, " O"}) +
                            text_of({"HETATM", " O  ", ' ', "HOH ", 'A', 3, ' ', 2, 1, " O"});
   StructureOptions options;
   CHECK(xs(molecule_of_pdb(text, options)) == Xs{0, 1});
