@@ -63,7 +63,7 @@ struct RowResult : SmallResult {
       potentials = " --source-map " + a + ".dx --target-map " + b + ".dx ";
     }
     const Outcome compared = run_espdiff("compare " + a + " " + b + potentials + options +
-                                         " --device cpu --grid-spacing 1 -q --exit-zero --overwrite -o " + prefix);
+                                         " --device cpu --grid-spacing 1.5 -q --exit-zero --overwrite -o " + prefix);
     REQUIRE_MESSAGE(compared.status == 0, compared.err);
   }
   static std::string two_chains(double bend) {
