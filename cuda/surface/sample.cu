@@ -155,12 +155,15 @@ ESPDIFF_INLINE float sample_at(const MapView& map, const double (&c)[3]) {
 
 /// Values, charge sums and zero together, at lattice coordinates; of isolated charges these are Angstrom.
 ESPDIFF_INLINE float potential_at(const MapView& map, const double (&c)[3]) {
-  if (map.sums.charges == nullptr) return static_cast<float>(static_cast<double>(sample_at(map, c)) - map.zero);
-  if (map.sums.first == nullptr) return static_cast<float>(map.sums.isolated({c[0], c[1], c[2]}) - map.zero);
+  const bool charges = map.sums.charges != nullptr;
+  if (charges && map.sums.first == nullptr) {
+    return static_cast<float>(map.sums.isolated({c[0], c[1], c[2]}) - map.zero);
+  }
+  const float smooth = sample_at(map, c);
+  if (!charges) return static_cast<float>(static_cast<double>(smooth) - map.zero);
+  if (!(smooth - smooth == 0.0F)) return smooth;
   double parts[3];
   for (int axis = 0; axis < 3; ++axis) parts[axis] = c[axis] / static_cast<double>(map.size[axis]);
-  const float smooth = sample_at(map, c);
-  if (!(smooth - smooth == 0.0F)) return smooth;
   return static_cast<float>(static_cast<double>(smooth) + map.sums.direct(parts) - map.zero);
 }
 
@@ -168,14 +171,17 @@ ESPDIFF_INLINE float potential_at(const MapView& map, const double (&c)[3]) {
 /// steps, which are the interpolated central differences at the points. Otherwise the map is smooth, and the difference
 /// of fourth order over a tenth of an Angstrom.
 ESPDIFF_INLINE double slope_along(const MapView& map, const double (&c)[3], int axis, double small_step) {
-  const auto at = [&](double shift) ESPDIFF_INLINE_LAMBDA {
+  const bool linear = map.spline_order == 0 && map.sums.charges == nullptr;
+  const double step = linear ? 1 : small_step, shifts[4] = {step, -step, 2 * step, -2 * step};
+  double at[4] = {};
+  // A loop, so that the potential's long code is in the kernel once; six calls made 50 000 instructions.
+  for (int i = 0; i < (linear ? 2 : 4); ++i) {
     double moved[3] = {c[0], c[1], c[2]};
-    moved[axis] += shift;
-    return static_cast<double>(potential_at(map, moved));
-  };
-  if (map.spline_order == 0 && map.sums.charges == nullptr) return 0.5 * (at(1) - at(-1));
-  const double near = at(small_step) - at(-small_step), far = at(2 * small_step) - at(-2 * small_step);
-  return (8 * near - far) / (12 * small_step);
+    moved[axis] += shifts[i];
+    at[i] = static_cast<double>(potential_at(map, moved));
+  }
+  if (linear) return 0.5 * (at[0] - at[1]);
+  return (8 * (at[0] - at[1]) - (at[2] - at[3])) / (12 * small_step);
 }
 
 constexpr double kSmoothStep_A = 0.1;
