@@ -49,11 +49,12 @@ const std::vector<int>& charges_of_letter(char letter) {
 
 const std::unordered_map<std::string_view, int>& ions() {
   static const std::unordered_map<std::string_view, int> table = {
-      {"LI", 1},  {"NA", 1},  {"NA+", 1}, {"SOD", 1}, {"K", 1},    {"K+", 1},   {"POT", 1}, {"RB", 1},   {"CS", 1},
-      {"CES", 1}, {"AG", 1},  {"TL", 1},  {"CU1", 1}, {"MG", 2},   {"MG2", 2},  {"CA", 2},  {"CAL", 2},  {"SR", 2},
-      {"BA", 2},  {"MN", 2},  {"FE2", 2}, {"CO", 2},  {"NI", 2},   {"CU", 2},   {"ZN", 2},  {"ZN2", 2},  {"CD", 2},
-      {"CAD", 2}, {"HG", 2},  {"PB", 2},  {"FE", 3},  {"AL", 3},   {"LA", 3},   {"EU", 3},  {"GD", 3},   {"TB", 3},
-      {"YB", 3},  {"3CO", 3}, {"F", -1},  {"CL", -1}, {"CL-", -1}, {"CLA", -1}, {"BR", -1}, {"IOD", -1},
+      {"LI", 1},  {"NA", 1},  {"NA+", 1}, {"SOD", 1}, {"K", 1},    {"K+", 1},   {"POT", 1}, {"RB", 1},
+      {"CS", 1},  {"CES", 1}, {"AG", 1},  {"TL", 1},  {"CU1", 1},  {"MG", 2},   {"MG2", 2}, {"CA", 2},
+      {"CAL", 2}, {"SR", 2},  {"BA", 2},  {"MN", 2},  {"FE2", 2},  {"CO", 2},   {"NI", 2},  {"CU", 2},
+      {"ZN", 2},  {"ZN2", 2}, {"CD", 2},  {"CAD", 2}, {"HG", 2},   {"PB", 2},   {"FE", 3},  {"AL", 3},
+      {"LA", 3},  {"EU", 3},  {"GD", 3},  {"TB", 3},  {"YB", 3},   {"YB2", 2},  {"MN3", 3}, {"3NI", 3},
+      {"PT4", 4}, {"3CO", 3}, {"F", -1},  {"CL", -1}, {"CL-", -1}, {"CLA", -1}, {"BR", -1}, {"IOD", -1},
   };
   return table;
 }

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <tuple>
 
 #include "align/residue_names.h"
 #include "base/molecule/input_options.h"
@@ -60,7 +61,19 @@ TEST_CASE("ion_parameters: names that say a state, elements in their common one,
   CHECK(ion_parameters("3CO", "Co")->charge == 3);
   CHECK(ion_parameters("CL", "Cl")->charge == -1);
   CHECK(ion_parameters("HO3", "Ho")->charge == 3);
+  for (const auto& [name, element, charge] :
+       {std::tuple("MN3", "Mn", 3), std::tuple("3NI", "Ni", 3), std::tuple("PT4", "Pt", 4), std::tuple("YB2", "Yb", 2)})
+    CHECK(ion_parameters(name, element)->charge == charge);
   CHECK_FALSE(ion_parameters("LIG", "C"));
+}
+
+TEST_CASE("group_sources: CO and O2 are gases where they have two atoms, and an ion or an oxide where they have one") {
+  const std::string carbon_monoxide =
+      hetatm(1, " C", "CO", 1, 0, 0, 0, "C") + hetatm(2, " O", "CO", 1, 1.13, 0, 0, "O");
+  const std::string oxygen = hetatm(3, " O1", "O2", 2, 9, 0, 0, "O") + hetatm(4, " O2", "O2", 2, 10.2, 0, 0, "O");
+  const Molecule molecule = molecule_of(carbon_monoxide + oxygen + hetatm(5, "CO", "CO", 3, 20, 0, 0, "CO"));
+  CHECK(group_sources(molecule, {-1, -1, -1}, {}) ==
+        std::vector<GroupSource>{GroupSource::kGas, GroupSource::kGas, GroupSource::kIon});
 }
 
 TEST_CASE("charge_groups: an ion gets its charge, glycerol is left out, a ligand waits for its file") {

@@ -125,8 +125,12 @@ std::string in_our_words(const CLI::ParseError& error, const CLI::App& app) {
     const bool too_many = text.find("At Most") != std::string::npos;
     return name + (too_many ? ": is given more than once; give it once" : ": a value is missing behind it");
   }
-  if (is(CLI::ExitCodes::RequiredError))
-    return text.substr(0, text.find(' ')) + " is missing: " + usage_line(chosen(app));
+  if (is(CLI::ExitCodes::RequiredError)) {
+    const std::string missing = text.substr(0, text.find(' '));
+    const bool is_alone = missing == "TARGET" && chosen(app).get_name() == "compare";
+    return missing + " is missing: " + usage_line(chosen(app)) +
+           (is_alone ? "; the potential of one structure: espdiff surface SOURCE --potential pb" : "");
+  }
   if (const std::size_t at = text.find(" not in {"); at != std::string::npos) return not_a_choice(text, name, at);
   // All that is left over, the first word last.
   if (is(CLI::ExitCodes::ExtrasError)) return left_over(text.substr(text.rfind(' ') + 1), app);

@@ -32,10 +32,10 @@ bool is_additive(const std::string& name) {
   return names.count(name) > 0;
 }
 
-/// Carbon monoxide is CO in older files, which is cobalt's name as an ion.
+/// Older and modelled files have CO, cobalt's name as an ion, for carbon monoxide, and O2 for oxygen.
 bool is_gas(const std::string& name, std::size_t n_atoms) {
   static const std::set<std::string_view> names = {"OXY", "CMO", "NO", "NMO", "N2", "XE", "KR", "AR"};
-  return names.count(name) > 0 || (name == "CO" && n_atoms == 2);
+  return names.count(name) > 0 || ((name == "CO" || name == "O2") && n_atoms == 2);
 }
 
 bool is_haem(const std::string& name) { return name == "HEM" || name == "HEC"; }

@@ -50,7 +50,9 @@ std::optional<IonParameters> ion_parameters(const std::string& residue_name, con
     if (usual == nullptr) usual = &row;
     if (!named || row.ion.charge == *named) return row.ion;
   }
-  return usual == nullptr ? std::nullopt : std::optional<IonParameters>(usual->ion);
+  if (usual == nullptr) return std::nullopt;
+  // A rare state has the radius of the usual one.
+  return IonParameters{named ? *named : usual->ion.charge, usual->ion.radius};
 }
 
 }  // namespace espdiff
