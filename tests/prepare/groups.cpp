@@ -67,7 +67,7 @@ TEST_CASE("ion_parameters: names that say a state, elements in their common one,
   CHECK_FALSE(ion_parameters("LIG", "C"));
 }
 
-TEST_CASE("group_sources: CO and O2 are gases where they have two atoms, and an ion or an oxide where they have one") {
+TEST_CASE("group_sources: CO and O2 are gases where they have two atoms, and CO of one atom is cobalt") {
   const std::string carbon_monoxide =
       hetatm(1, " C", "CO", 1, 0, 0, 0, "C") + hetatm(2, " O", "CO", 1, 1.13, 0, 0, "O");
   const std::string oxygen = hetatm(3, " O1", "O2", 2, 9, 0, 0, "O") + hetatm(4, " O2", "O2", 2, 10.2, 0, 0, "O");

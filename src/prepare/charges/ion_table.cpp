@@ -44,15 +44,15 @@ std::optional<IonParameters> ion_parameters(const std::string& residue_name, con
   // Hydroxide, whose hydrogen no crystal shows.
   if (residue_name == "OH" && symbol == "O") return IonParameters{-1, element_radius("O")};
   const IonRow* usual = nullptr;
-  const std::optional<int> named = is_ion_name(residue_name) ? charge_of_group(residue_name, 1) : std::nullopt;
+  const int named = is_ion_name(residue_name) ? charge_of_group(residue_name, 1).value_or(0) : 0;  // 0: no state
   for (const IonRow& row : kIonRows) {
     if (row.element != symbol) continue;
     if (usual == nullptr) usual = &row;
-    if (!named || row.ion.charge == *named) return row.ion;
+    if (named == 0 || row.ion.charge == named) return row.ion;
   }
   if (usual == nullptr) return std::nullopt;
   // A rare state has the radius of the usual one.
-  return IonParameters{named ? *named : usual->ion.charge, usual->ion.radius};
+  return IonParameters{named == 0 ? usual->ion.charge : named, usual->ion.radius};
 }
 
 }  // namespace espdiff
