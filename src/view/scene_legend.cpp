@@ -197,7 +197,8 @@ void add_head(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   if (record.trustworthy && !record.untrusted_parts.empty()) verdict += ": not " + record.untrusted_parts.front();
   const double n_names = std::min(0.35 * paper.width / letter, static_cast<double>(names.size()));
   legend.text(0.015 * paper.width, y, shortened(names, n_names), Align::kLeft);
-  const double left = 0.03 * paper.width + n_names * letter;
+  // Names have wide letters more often than sentences do.
+  const double left = 0.03 * paper.width + n_names * 1.15 * letter;
   legend.rectangle({left, y - 0.8 * paper.text_height, paper.width, y + 0.8 * paper.text_height},
                    record.trustworthy ? kPartColour : kWarningColour);
   legend.text(left + 0.5 * paper.text_height, y, shortened(verdict, (paper.width - left) / letter - 3), Align::kLeft);

@@ -7,8 +7,11 @@
 #include <iterator>
 #include <vector>
 
+#include "base/progress.h"
+#include "cuda/device/launch.h"
 #include "cuda/potential/pb/conjugate_gradients.h"
 #include "cuda/potential/pb/multigrid/multigrid.h"
+#include "cuda/potential/pb/multigrid/operator_rows.h"
 #include "cuda/potential/pb/multigrid/packed_operator.h"
 #include "support/random.h"
 
@@ -225,6 +228,26 @@ TEST_CASE("packed coefficients give the bits of arrays, at any number of threads
       CHECK(n_different(own_rest, rest) == 0);
       CHECK(n_different(own_rest_of_one, rest_of_one) == 0);
     }
+  }
+}
+
+TEST_CASE("a request to cancel within a loop over ranges ends the computation behind the loop, not the program") {
+  const GridSize size{9, 9, 9};
+  const GridOperator arrays = ball_operator(size);
+  GridOperator a = arrays;
+  add_faces_to_diagonal(a, espdiff::cpu_backend::PackedOperator::pack(arrays, {2.0F, 78.54F, 0.5F}, 2));
+  for (const int n : {1, 2}) {
+    const Threads threads(n);
+    espdiff::Progress progress;
+    const espdiff::CancelScope scope(progress);
+    const auto loop = [&] {
+      for_each_index(1, [&](std::size_t) {
+        progress.request_cancel();
+        Buffer<float> storage;
+        OperatorRows(a, storage, PlainRows::kUnpacked).hold(1);
+      });
+    };
+    CHECK_THROWS_AS(loop(), espdiff::Cancelled);
   }
 }
 

@@ -46,7 +46,10 @@ OperatorRows::OperatorRows(const GridOperator& of, Buffer<float>& storage, Plain
       plain_diagonal_[has_ions].assign(of.size.row(), (has_ions != 0 ? packed.usual.ions : 0.0F) + faces);
   }
   const std::size_t needed = of.packed == nullptr ? 0 : of.size.plane() * kPlanes * kArrays;
-  if (storage.size() < needed) storage.assign(needed, 0.0F);
+  if (storage.size() >= needed) return;
+  storage.resize(needed);
+  // Not by assign(): its loop throws when the computation is cancelled, and these rows are made within one.
+  std::fill_n(raw(storage), needed, 0.0F);
 }
 
 const float* OperatorRows::plane_of(Array array, int k) const {
