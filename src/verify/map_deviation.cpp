@@ -41,7 +41,7 @@ double interpolated(vtkImageData* image, const int cell[3], const double within[
 
 }  // namespace
 
-std::string map_deviation(const RecordedInput& input, const std::string& unit, const std::vector<Vec3d>& points,
+std::string map_deviation(const VerifiedInput& input, const std::string& unit, const std::vector<Vec3d>& points,
                           const std::vector<double>& potentials, double& largest, double& scale) {
   if (read_input(input.path).sha256 != input.sha256)
     throw InputError(input.path + ": has changed since the comparison; compare again");

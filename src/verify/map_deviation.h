@@ -13,7 +13,7 @@ namespace espdiff {
 /// @param[out] largest deviation of the potentials  @param[out] scale their largest magnitude
 /// @returns why it cannot be done; empty if it was
 /// @throws as read_grid(), InputError (the file has changed since)
-std::string map_deviation(const RecordedInput& input, const std::string& unit, const std::vector<Vec3d>& points,
+std::string map_deviation(const VerifiedInput& input, const std::string& unit, const std::vector<Vec3d>& points,
                           const std::vector<double>& potentials, double& largest, double& scale);
 
 }  // namespace espdiff

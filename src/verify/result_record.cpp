@@ -138,10 +138,10 @@ std::string ResultRecord::place_of_input(const std::string& role) const {
   return "inputs/" + std::to_string(k);
 }
 
-std::optional<RecordedInput> ResultRecord::input(const std::string& role) const {
+std::optional<VerifiedInput> ResultRecord::input(const std::string& role) const {
   for (const Json& entry : json_->at("inputs")) {
     if (!entry.is_object() || text_of(entry, "role") != role) continue;
-    RecordedInput input;
+    VerifiedInput input;
     const std::filesystem::path recorded = text_of(entry, "path");
     if (recorded.empty()) return std::nullopt;
     const std::filesystem::path beside = std::filesystem::path(path_).parent_path() / recorded.filename();

@@ -10,7 +10,7 @@
 namespace espdiff {
 
 /// An input that OUT.json names.
-struct RecordedInput {
+struct VerifiedInput {
   std::string path;  ///< that exists: the recorded one, or the file of that name beside OUT.json
   std::string sha256;
   int model = 1;
@@ -43,7 +43,7 @@ class ResultRecord {
   std::vector<std::string> leaves() const;
   /// The place of an input in OUT.json, "inputs/0". @pre there is one
   std::string place_of_input(const std::string& role) const;
-  std::optional<RecordedInput> input(const std::string& role) const;
+  std::optional<VerifiedInput> input(const std::string& role) const;
 
  private:
   const nlohmann::json* at(const std::string& pointer) const;

@@ -139,7 +139,7 @@ class Verifier {
   }
 
   Molecule molecule(const std::string& role) const {
-    const RecordedInput entry = *record_.input(role);
+    const VerifiedInput entry = *record_.input(role);
     StructureOptions options;
     options.model = entry.model;
     options.include_hetero = entry.hetero;
