@@ -110,14 +110,18 @@ TEST_CASE("values out of range are refused with the range") {
                  "field-lines: '-1' is not a whole number from 0 to 2000"));
 }
 
-TEST_CASE("each option of a scene changes one entry of its file, and refuses what the file refuses") {
+TEST_CASE(
+    "an option of a scene takes the text of its value, which its file has too, and refuses what the file refuses") {
   for (const SceneOption& option : scene_options()) {
     INFO(option.name);
+    const std::string unusual = option.get(unusual_scene()), usual = option.get({});
     Scene scene;
-    option.set(scene, option.get(unusual_scene()));
-    CHECK(option.get(scene) == option.get(unusual_scene()));
-    option.set(scene, option.get({}));
-    CHECK(option.get(scene) == option.get({}));
+    option.set(scene, unusual);
+    CHECK(option.get(scene) == unusual);
+    CHECK((scene_json(scene) != scene_json({})) == (unusual != usual));
+    option.set(scene, usual);
+    CHECK(option.get(scene) == usual);
+    CHECK(scene_json(scene) == scene_json({}));
   }
   Scene scene;
   CHECK(contains(message_of([&] {
