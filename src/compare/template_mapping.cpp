@@ -238,6 +238,15 @@ void TemplateMapping::check_kind(const CompareInput& frame, const std::string& n
   p.first_name = name;
 }
 
+std::unique_ptr<TemplateMapping> TemplateMapping::beside(Engine& engine, const Progress& progress) const {
+  auto other = std::make_unique<TemplateMapping>(engine, parts_->source, parts_->options, progress);
+  Parts& p = *other->parts_;
+  p.reading_weights = parts_->reading_weights;
+  p.first_check = parts_->first_check;
+  p.first_name = parts_->first_name;
+  return other;
+}
+
 TemplateFrame TemplateMapping::map(const CompareInput& frame, const Progress& progress) {
   Parts& p = *parts_;
   TemplateFrame out;

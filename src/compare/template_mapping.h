@@ -74,6 +74,9 @@ class TemplateMapping {
   /// @param name of the frame, for messages
   /// @throws InputError (another kind, unless the options trust maps), and as compare()
   void check_kind(const CompareInput& frame, const std::string& name, const Progress& progress);
+  /// The same by another engine, for another thread; it takes over take_apart() and check_kind().
+  /// @throws as the constructor
+  std::unique_ptr<TemplateMapping> beside(Engine& engine, const Progress& progress) const;
   /// @param frame has a map
   /// @throws as compare(), Engine::contributions()
   TemplateFrame map(const CompareInput& frame, const Progress& progress);

@@ -47,12 +47,13 @@ struct Place {
 class Team {
  public:
   Team(const Engine& engine, const Workers& workers, const ItemGroups& groups,
-       const std::function<ComputeItem(Engine&)>& begin, const Failed& failed)
+       const std::function<ComputeItem(Engine&)>& begin, const Failed& failed, std::size_t n_supplied)
       : engine_(engine),
         workers_(workers),
         groups_(groups),
         begin_(begin),
         failed_(failed),
+        n_supplied_(n_supplied),
         n_staying_(workers.n),
         n_alive_(workers.n),
         is_done_(groups.n_items, false) {
@@ -69,12 +70,18 @@ class Team {
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
-  /// Waits a moment for an item. @returns whether it is done
+  /// The inputs of the first n items are there.
+  void supply(std::size_t n) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    n_supplied_ = n;
+    supplied_.notify_all();
+  }
+
+  /// Waits at most so long for an item. @returns whether it is done
   /// @throws its error
-  bool wait_for(std::size_t item) {
-    constexpr auto kMoment = std::chrono::milliseconds(20);
+  bool wait_for(std::size_t item, std::chrono::milliseconds moment) {
     std::unique_lock<std::mutex> lock(mutex_);
-    news_.wait_for(lock, kMoment, [&] { return is_done_[item] || item == first_failed_; });
+    news_.wait_for(lock, moment, [&] { return is_done_[item] || item == first_failed_; });
     if (item == first_failed_) std::rethrow_exception(error_);
     return is_done_[item];
   }
@@ -94,6 +101,8 @@ class Team {
       const std::lock_guard<std::mutex> lock(mutex_);
       next_group_ = groups_.ends.size();
       returned_.clear();
+      is_stopped_ = true;
+      supplied_.notify_all();
     }
     for (const auto& place : places_) place->progress.request_cancel();
     for (std::thread& thread : threads_) {
@@ -189,12 +198,13 @@ class Team {
     ended_.wait(lock, [&] { return n_alive_ == 1; });
   }
 
-  /// @returns whether it is to be computed: not behind one that failed
+  /// Waits for the item's input. @returns whether it is to be computed: not behind one that failed
   bool begin_item(Place& place, std::size_t item) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    std::unique_lock<std::mutex> lock(mutex_);
+    supplied_.wait(lock, [&] { return item < n_supplied_ || is_stopped_; });
     place.item = item;
     place.stage.clear();
-    return item < first_failed_;
+    return item < first_failed_ && !is_stopped_;
   }
 
   void end_item(Place& place, const std::exception_ptr& error, bool is_computed = true) {
@@ -215,7 +225,9 @@ class Team {
   const std::function<ComputeItem(Engine&)>& begin_;
   const Failed& failed_;
   std::mutex mutex_;
-  std::condition_variable news_, ended_;
+  std::condition_variable news_, ended_, supplied_;
+  std::size_t n_supplied_;  ///< items whose inputs are there
+  bool is_stopped_ = false;
   std::size_t next_group_ = 0;
   std::vector<Range> returned_;  ///< by threads that left
   int n_staying_, n_alive_;      ///< threads that will take items again; threads that hold memory
@@ -227,13 +239,15 @@ class Team {
 };
 
 void compute_one_by_one(Engine& engine, std::size_t n_items, const std::function<ComputeItem(Engine&)>& begin,
-                        const Failed& failed, const std::function<void(std::size_t)>& done, const Progress& progress) {
+                        const Failed& failed, const std::function<void(std::size_t)>& done, const Progress& progress,
+                        const std::function<void(std::size_t)>& supply) {
   const ComputeItem compute = begin(engine);
   for (std::size_t item = 0; item < n_items; ++item) {
     // Each item's stages start at 0 again; the whole run's bar advances by items only.
     const Progress stages([&](const std::string& stage, double) {
       progress.report(stage, static_cast<double>(item) / static_cast<double>(n_items));
     });
+    if (supply) supply(item);
     try {
       compute(item, stages);
     } catch (const Cancelled&) {
@@ -263,16 +277,25 @@ Workers workers_for(const Engine& engine, std::size_t n_items, double bytes_each
 void compute_items(Engine& engine, const Workers& workers, const ItemGroups& groups,
                    const std::function<ComputeItem(Engine&)>& begin,
                    const std::function<void(std::size_t, const Error&)>& failed,
-                   const std::function<void(std::size_t)>& done, const Progress& progress) {
+                   const std::function<void(std::size_t)>& done, const Progress& progress,
+                   const std::function<void(std::size_t)>& supply) {
+  constexpr std::chrono::milliseconds kMoment(20), kNoTime(0);
   if (workers.n <= 1) {
-    compute_one_by_one(engine, groups.n_items, begin, failed, done, progress);
+    compute_one_by_one(engine, groups.n_items, begin, failed, done, progress, supply);
     return;
   }
-  std::size_t next = 0;
-  Team team(engine, workers, groups, begin, failed);
+  // While the slowest of the items at work is waited for, each other thread may compute one more.
+  const auto n_ahead = static_cast<std::size_t>(2 * workers.n);
+  std::size_t next = 0, n_supplied = supply ? 0 : groups.n_items;
+  Team team(engine, workers, groups, begin, failed, n_supplied);
   try {
     while (next < groups.n_items) {
-      const bool is_done = team.wait_for(next);
+      const bool supplies = n_supplied < std::min(groups.n_items, next + n_ahead);
+      if (supplies) {
+        supply(n_supplied);
+        team.supply(++n_supplied);
+      }
+      const bool is_done = team.wait_for(next, supplies ? kNoTime : kMoment);
       if (is_done) done(next++);
       if (next < groups.n_items)
         progress.report(team.stage_of(next), static_cast<double>(next) / static_cast<double>(groups.n_items));

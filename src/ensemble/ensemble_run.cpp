@@ -1,4 +1,4 @@
-// ensemble_run.cpp: the missing frames, one after the other.
+// ensemble_run.cpp: the missing frames, written in their order.
 #include "ensemble/ensemble_run.h"
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include "base/not_a_number.h"
 #include "compare/template_mapping.h"
 #include "ensemble/file/ensemble_file.h"
+#include "ensemble/frames/map_frames.h"
 #include "field/field_kinds.h"
 #include "io/files/check_outputs.h"
 #include "matrix/matrix_run.h"
@@ -84,15 +85,18 @@ EnsembleFrame numbers_of(const TemplateFrame& frame, const std::vector<float>& v
 }
 
 /// A group in vacuum against one in water is refused before the work: by the first frame of each.
-void check_kinds(TemplateMapping& mapping, const EnsemblePlan& plan, const EnsembleRun& run,
-                 const std::function<CompareInput(std::size_t)>& read, const Progress& progress) {
+/// @returns the bytes of the largest map
+std::size_t check_kinds(TemplateMapping& mapping, const EnsemblePlan& plan, const EnsembleRun& run,
+                        const std::function<HeldInput(std::size_t)>& read, const Progress& progress) {
   std::string before;
-  std::size_t first = 0;
+  std::size_t first = 0, largest = 0;
   for (const EnsembleReplicate& replicate : plan.replicates) {
     if (replicate.group != before && replicate.n_frames > 0) {
       const std::string name = plan.name_of(first);
       try {
-        mapping.check_kind(read(first), name, progress);
+        const HeldInput frame = read(first);
+        if (frame.input.map != nullptr) largest = std::max(largest, sizeof(float) * frame.input.map->values.size());
+        mapping.check_kind(frame.input, name, progress);
       } catch (const InputError& error) {
         // A frame that cannot be read is told when its turn comes.
         if (!run.skip_errors) throw InputError(name + ": " + error.message());
@@ -101,6 +105,7 @@ void check_kinds(TemplateMapping& mapping, const EnsemblePlan& plan, const Ensem
     before = replicate.group;
     first += replicate.n_frames;
   }
+  return largest;
 }
 
 /// The run's file, then one for each field.
@@ -147,11 +152,11 @@ std::string ensemble_path(const std::string& prefix, const Shard& shard) { retur
 
 EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInput& source,
                             const CompareOptions& options, const EnsembleRun& run,
-                            const std::function<CompareInput(std::size_t)>& read, const Progress& progress) {
+                            const std::function<HeldInput(std::size_t)>& read, const Progress& progress) {
   for (const Residue& residue : source.molecule->residues) plan.residues.push_back(residue_label(residue));
   TemplateMapping mapping(engine, source, options, progress);
   const MeshGraph graph = make_mesh_graph(mapping.surface().positions, mapping.surface().triangles);
-  if (plan.potential == "maps") check_kinds(mapping, plan, run, read, progress);
+  const std::size_t bytes_of_map = plan.potential == "maps" ? check_kinds(mapping, plan, run, read, progress) : 0;
   EnsembleReport report;
   std::vector<EnsembleFile> all = open_files(plan, mapping.surface(), options, run, report);
   const auto [begin, end] = shard_range(plan.n_frames(), run.shard);
@@ -166,39 +171,49 @@ EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInpu
   const std::string what = plan.matrix == nullptr ? "frame" : "state";
   const Clock::time_point start = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  for (std::size_t i = 0; i < missing.size(); ++i) {
-    const std::size_t f = missing[i];
-    const std::string name = plan.name_of(f);
-    std::string text = what + " " + std::to_string(report.n_resumed + i + 1) + " of " + std::to_string(report.n_frames);
-    if (i > 0)
-      text += ", " + in_words(seconds() / static_cast<double>(i) * static_cast<double>(missing.size() - i)) + " left";
-    const double share = static_cast<double>(report.n_resumed + i) / static_cast<double>(report.n_frames);
-    const Progress inner(
-        [&](const std::string& stage, double) { progress.report(text + "; " + name + ": " + stage, share); });
-    try {
-      inner.report("read", 0.0);
-      const TemplateFrame frame = mapping.map(read(f), inner);
-      write_frame(all, f, frame, graph);
-      if (i == 0) report.notes = frame.field_notes;
-      add_times(report.time_ms, frame.time_ms);
-    } catch (const Cancelled&) {
-      throw Error(ErrorClass::kCancelled, "cancelled after " + std::to_string(report.n_resumed + i) + " of " +
-                                              std::to_string(report.n_frames) + " " + what + "s, which " + report.path +
-                                              " holds; " + switched_on("resume") + " continues");
-    } catch (const Error& error) {
-      if (!run.skip_errors || error.error_class() == ErrorClass::kIo) {
-        for (const EnsembleFile& file : all) {
-          if (file.n_done() == 0) fs::remove(file.path());  // nothing is lost
-        }
-        throw Error(error.error_class(), name + ": " + error.message());
-      }
-      for (EnsembleFile& file : all) {
-        if (file.has(f)) continue;
-        file.write(f, std::vector<float>(file.n_vertices(), std::numeric_limits<float>::quiet_NaN()),
-                   {kNaN, 1, 1, kNaN, kNaN, kNaN, false, error.what()});
-      }
-      ++report.n_skipped;
+  std::size_t n_done = 0;
+  const auto name_of = [&](std::size_t i) { return plan.name_of(missing[i]); };
+  const Progress inner([&](const std::string& stage, double) {
+    if (n_done == missing.size()) return;
+    std::string text =
+        what + " " + std::to_string(report.n_resumed + n_done + 1) + " of " + std::to_string(report.n_frames);
+    if (n_done > 0)
+      text += ", " + in_words(seconds() / static_cast<double>(n_done) * static_cast<double>(missing.size() - n_done)) +
+              " left";
+    const double share = static_cast<double>(report.n_resumed + n_done) / static_cast<double>(report.n_frames);
+    progress.report(text + "; " + name_of(n_done) + ": " + (stage.empty() ? "read" : stage), share);
+  });
+  const auto done = [&](std::size_t i, const TemplateFrame& frame) {
+    write_frame(all, missing[i], frame, graph);
+    if (i == 0) report.notes = frame.field_notes;
+    add_times(report.time_ms, frame.time_ms);
+    ++n_done;
+  };
+  const auto failed = [&](std::size_t i, const Error& error) {
+    if (!run.skip_errors || error.error_class() == ErrorClass::kIo)
+      throw Error(error.error_class(), name_of(i) + ": " + error.message());
+    for (EnsembleFile& file : all) {
+      if (file.has(missing[i])) continue;
+      file.write(missing[i], std::vector<float>(file.n_vertices(), std::numeric_limits<float>::quiet_NaN()),
+                 {kNaN, 1, 1, kNaN, kNaN, kNaN, false, error.what()});
     }
+    ++report.n_skipped;
+    ++n_done;
+  };
+  try {
+    inner.report("read", 0.0);
+    map_frames({engine, mapping, missing.size(), source.molecule->size(), bytes_of_map,
+                [&](std::size_t i) { return read(missing[i]); }},
+               done, failed, inner);
+  } catch (const Cancelled&) {
+    throw Error(ErrorClass::kCancelled, "cancelled after " + std::to_string(report.n_resumed + n_done) + " of " +
+                                            std::to_string(report.n_frames) + " " + what + "s, which " + report.path +
+                                            " holds; " + switched_on("resume") + " continues");
+  } catch (const Error&) {
+    for (const EnsembleFile& file : all) {
+      if (file.n_done() == 0) fs::remove(file.path());  // nothing is lost
+    }
+    throw;
   }
   for (EnsembleFile& file : all) file.finish();
   report.seconds = seconds();

@@ -65,17 +65,18 @@ inline std::string field_prefix(const std::string& output_prefix, const std::str
 /// OUT.h5, or OUT.shard-2-of-8.h5.
 std::string ensemble_path(const std::string& output_prefix, const Shard& shard);
 
-/// Maps the template onto every frame of the shard that the file, or that of a field (OUT.FIELD.h5), lacks. The files
+/// Maps the template onto every frame of the shard that the file, or that of a field (OUT.FIELD.h5), lacks: several
+/// beside each other, each by a thread of the CPU, or a few at a time on a GPU; the same bytes as one by one. The files
 /// are complete for these frames when this returns; after an error or a cancellation they have all finished ones.
 /// @param plan     all but residues
 /// @param source   the template
-/// @param read     a frame of all; it lives until the next one is asked for
+/// @param read     a frame of all; called on this thread, in their order, while frames before it are mapped
 /// @param progress receives "frame 12 of 400, 3 min left; wild, replicate w1, frame 11: morph"
 /// @throws InputError (the file exists and neither resume nor overwrite was asked for; it is of another run), and as
 ///         TemplateMapping; a frame's error names it
 EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInput& source,
                             const CompareOptions& options, const EnsembleRun& run,
-                            const std::function<CompareInput(std::size_t)>& read, const Progress& progress);
+                            const std::function<HeldInput(std::size_t)>& read, const Progress& progress);
 
 /// Merges the files of shards into OUT.h5, the same bytes as from one process.
 /// @throws InputError (parts of different runs; frames missing; OUT.h5 exists and `overwrite` is not set)

@@ -120,8 +120,8 @@ EnsemblePlan plan_of(const MatrixPlan& matrix, const Template& chosen, const Tem
   return plan;
 }
 
-CompareInput frame_of(const Variant& variant) {
-  return {&variant.molecule, variant.map ? &*variant.map : nullptr, variant.make_map, {}, variant.fields};
+HeldInput frame_of(const Variant& variant) {
+  return {{&variant.molecule, variant.map ? &*variant.map : nullptr, variant.make_map, {}, variant.fields}};
 }
 
 /// The shard's part of the sample, source by source.

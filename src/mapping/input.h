@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "base/handles.h"
 #include "base/molecule/surface_parts.h"
@@ -36,6 +37,12 @@ struct CompareInput {
   MapMaker make_map = nullptr;  ///< used instead of `map`
   SurfaceParts parts{};         ///< of the source: results are given for them as well
   FieldInput fields{};          ///< what its fields are made of besides
+};
+
+/// One of many states, and what keeps its molecule and map in memory: nothing where they stay there anyway.
+struct HeldInput {
+  CompareInput input;
+  std::shared_ptr<const void> held{};
 };
 
 }  // namespace espdiff

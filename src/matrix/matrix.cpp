@@ -123,10 +123,6 @@ ItemGroups groups_of(const std::vector<MatrixPair>& pairs, int n_workers) {
   return groups;
 }
 
-/// Bytes that a comparison takes for each atom of the larger molecule: measured to 31,000 with potentials in solvent at
-/// 106,000 atoms.
-constexpr double kBytesOfAtom = 4e4;
-
 }  // namespace
 
 const std::vector<Metric>& matrix_metrics(const PartsAndFields& compared) {

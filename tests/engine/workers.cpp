@@ -115,3 +115,50 @@ TEST_CASE("an item for which there is too little memory although it is alone is 
   CHECK(run.done.size() == 5);
   CHECK(run.is_in_order());
 }
+
+TEST_CASE("inputs are supplied in order on one thread, a few ahead, and none behind an error of theirs") {
+  for (const int n_threads : {1, 3}) {
+    CAPTURE(n_threads);
+    const auto engine = cpu_engine(1);
+    espdiff::ItemGroups each{kItems, {}};
+    for (std::size_t end = 1; end <= kItems; ++end) each.ends.push_back(end);
+    std::vector<std::size_t> supplied, done;
+    std::vector<int> inputs(kItems, 0);
+    std::size_t most_ahead = 0;
+    std::atomic<int> n_without{0};
+    const auto here = std::this_thread::get_id();
+    const auto begin = [&](Engine&) -> ComputeItem {
+      return [&](std::size_t item, const Progress&) {
+        if (inputs[item] != 1) ++n_without;
+        std::this_thread::sleep_for(std::chrono::milliseconds(item % 5 == 0 ? 10 : 1));
+      };
+    };
+    std::size_t refused = kItems;
+    const auto supply = [&](std::size_t item) {
+      if (item == refused) throw espdiff::InputError("no input");
+      CHECK(std::this_thread::get_id() == here);
+      supplied.push_back(item);
+      inputs[item] = 1;
+      most_ahead = std::max(most_ahead, supplied.size() - done.size());
+    };
+    const auto compute = [&] {
+      supplied.clear();
+      done.clear();
+      inputs.assign(kItems, 0);
+      compute_items(
+          *engine, Workers{n_threads, 1}, each, begin, [](std::size_t, const Error&) {},
+          [&](std::size_t item) { done.push_back(item); }, {}, supply);
+    };
+    compute();
+    CHECK(n_without == 0);
+    CHECK(supplied.size() == kItems);
+    CHECK(std::is_sorted(supplied.begin(), supplied.end()));
+    CHECK(done.size() == kItems);
+    CHECK(std::is_sorted(done.begin(), done.end()));
+    CHECK(most_ahead <= static_cast<std::size_t>(2 * n_threads));
+    refused = 9;
+    CHECK_THROWS_WITH_AS(compute(), "no input", espdiff::InputError);
+    CHECK(supplied.size() == refused);
+    CHECK(done.size() <= refused);
+  }
+}

@@ -268,22 +268,26 @@ void EnsembleInputs::choose_template(const std::string& text, bool skip_errors, 
 
 CompareInput EnsembleInputs::source() const { return {&template_.molecule, nullptr, template_map_, {}}; }
 
-CompareInput EnsembleInputs::frame(std::size_t number) {
-  frame_ = load(number);
-  CompareInput input{&frame_.molecule, nullptr, nullptr, {}};
+HeldInput EnsembleInputs::frame(std::size_t number) {
+  struct Frame {
+    LoadedState state;
+    Grid map;  // where it is given
+  };
+  const auto held = std::make_shared<Frame>();
+  held->state = load(number);
+  CompareInput input{&held->state.molecule, nullptr, nullptr, {}};
   const auto [replicate, place] = plan_.place_of(number);
   input.fields.group = replicates_[replicate].group;
   input.fields.replicate = plan_.replicates[replicate].name;
   input.fields.frame = chosen_[replicate][place];
   if (maps_.given()) {
-    map_ = Grid();  // frees the last one first
-    map_ = maps_.read(replicate, place);
-    input.map = &map_;
+    held->map = maps_.read(replicate, place);
+    input.map = &held->map;
   } else {
-    input.make_map = maker_of(frame_);
+    input.make_map = maker_of(held->state);
   }
-  set_frame_radii(template_.molecule, frame_.molecule, options_.input.radii);
-  return input;
+  set_frame_radii(template_.molecule, held->state.molecule, options_.input.radii);
+  return {std::move(input), held};
 }
 
 }  // namespace espdiff

@@ -82,8 +82,8 @@ class EnsembleInputs {
   /// The superposition of the present template onto an earlier one. @throws as superpose()
   RigidTransform onto(const Molecule& earlier) const;
   CompareInput source() const;
-  /// A frame of all; it lives until the next one is asked for.
-  CompareInput frame(std::size_t number);
+  /// A frame of all. One file is open at a time: frames are read fastest in their order.
+  HeldInput frame(std::size_t number);
 
  private:
   void name_replicates();
@@ -93,6 +93,7 @@ class EnsembleInputs {
   LoadedState reference_of(const std::string& group, PotentialFacts& facts);
   LoadedState load(std::size_t frame);
   std::size_t medoid(const std::string& group, bool skip_errors, const Progress& progress);
+  /// @param state stays where it is as long as the maker
   MapMaker maker_of(const LoadedState& state) const;
 
   const EnsembleRequest& request_;
@@ -107,8 +108,7 @@ class EnsembleInputs {
   std::unique_ptr<FrameFiles> frames_;
   PotentialPlan potential_;  // nothing where maps are given
   GivenMaps maps_;
-  Grid map_;  // of the frame, where it is given
-  LoadedState template_, frame_;
+  LoadedState template_;
   MapMaker template_map_;
 };
 

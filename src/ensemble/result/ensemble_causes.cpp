@@ -13,6 +13,7 @@
 #include "causes/reading.h"
 #include "compare/template_mapping.h"
 #include "ensemble/file/ensemble_file.h"
+#include "ensemble/frames/map_frames.h"
 #include "ensemble/result/ensemble_result.h"
 #include "ensemble/result/template_patches.h"
 #include "io/files/write_csv.h"
@@ -149,7 +150,7 @@ void check_ensemble_causes(const CompareOptions& options, const CompareInput& so
 std::vector<EnsembleCauses> find_ensemble_causes(Engine& engine, const CompareInput& source,
                                                  const CompareOptions& options, const EnsembleFile& file,
                                                  const EnsembleResult& result,
-                                                 const std::function<CompareInput(std::size_t)>& read,
+                                                 const std::function<HeldInput(std::size_t)>& read,
                                                  const Progress& progress,
                                                  const std::function<void(const Message&)>& tell) {
   std::vector<std::vector<double>> areas;
@@ -164,15 +165,20 @@ std::vector<EnsembleCauses> find_ensemble_causes(Engine& engine, const CompareIn
   Sums sums(areas.size(), plan.replicates.size(), plan.residues.size() + 1);
   const std::vector<std::size_t> frames = frames_of_statistics(file, result);
   const auto start = std::chrono::steady_clock::now();
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    std::string text = formatted("causes: frame %zu of %zu is solved again", i + 1, frames.size());
-    if (i > 0)
-      text += ", " + in_words(seconds / static_cast<double>(i) * static_cast<double>(frames.size() - i)) + " left";
-    const double share = static_cast<double>(i) / static_cast<double>(frames.size());
-    const Progress inner([&](const std::string&, double) { progress.report(text, share); });
-    inner.report("read", 0.0);
-    const TemplateFrame frame = mapping.map(read(frames[i]), inner);
+  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const FramesToMap to_map{
+      engine, mapping, frames.size(), source.molecule->size(), 0, [&](std::size_t i) { return read(frames[i]); }};
+  const double at_once = frames_at_once(to_map);
+  std::size_t n_done = 0;
+  const Progress inner([&](const std::string&, double) {
+    if (n_done == frames.size()) return;
+    std::string text = formatted("causes: frame %zu of %zu is solved again", n_done + 1, frames.size());
+    if (n_done > 0)
+      text += ", " + in_words(seconds() / static_cast<double>(n_done) * static_cast<double>(frames.size() - n_done)) +
+              " left";
+    progress.report(text, static_cast<double>(n_done) / static_cast<double>(frames.size()));
+  });
+  const auto done = [&](std::size_t i, const TemplateFrame& frame) {
     for (std::size_t r = 0; r < areas.size(); ++r) {
       const FrameReading& reading = frame.readings[r];
       if (!std::isfinite(reading.mean)) continue;  // nothing of the patch has a value in this frame
@@ -180,12 +186,14 @@ std::vector<EnsembleCauses> find_ensemble_causes(Engine& engine, const CompareIn
       const double sum = std::accumulate(reading.of_residue.begin(), reading.of_residue.end(), reading.others);
       all[r].sum_error = std::max(all[r].sum_error, std::fabs(sum - reading.mean));
     }
-    if (i == 0 && frames.size() > 1) {
-      const double first = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (i == 0 && frames.size() > 1)
       tell("the causes solve " + std::to_string(frames.size()) + " frames again, in about " +
-           in_words(first * static_cast<double>(frames.size())));
-    }
-  }
+           in_words(seconds() * static_cast<double>(frames.size()) / at_once));
+    ++n_done;
+  };
+  const auto failed = [](std::size_t, const Error& error) { throw Error(error.error_class(), error.message()); };
+  inner.report("read", 0.0);
+  map_frames(to_map, done, failed, inner);
   for (std::size_t r = 0; r < areas.size(); ++r) {
     all[r].reading = options.causes[r];
     all[r].residues = plan.residues;

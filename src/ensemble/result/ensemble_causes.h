@@ -42,12 +42,12 @@ void check_ensemble_causes(const CompareOptions& options, const CompareInput& so
 /// as before, and half as long again for each patch. Replicates are the samples, as they are for potentials.
 /// @param result with its patches: `patch NAME` is a fixed one, `patch 2` the second that was found significant
 /// @param tell   receives, after the first frame, how long all of them take
-/// @param read   a frame of all; it lives until the next one is asked for
+/// @param read   a frame of all; called on this thread, in their order, while frames before it are mapped
 /// @throws InputError (no such patch), and as TemplateMapping
 std::vector<EnsembleCauses> find_ensemble_causes(Engine& engine, const CompareInput& source,
                                                  const CompareOptions& options, const EnsembleFile& file,
                                                  const EnsembleResult& result,
-                                                 const std::function<CompareInput(std::size_t)>& read,
+                                                 const std::function<HeldInput(std::size_t)>& read,
                                                  const Progress& progress,
                                                  const std::function<void(const Message&)>& tell);
 

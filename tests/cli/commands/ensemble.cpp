@@ -46,6 +46,7 @@ std::string models(int replicate, bool mutant, bool with_charges) {
 struct Runs {
   ScratchFolder folder;
   std::string groups = "--group wild", mutants = " --group mutant";
+  int n_threads = 1;
   Runs() {
     for (int r = 1; r <= 4; ++r) {
       folder.write("w" + std::to_string(r) + ".pqr", models(r, false, true));
@@ -56,7 +57,8 @@ struct Runs {
     groups += mutants;
   }
   Outcome run(const std::string& arguments, const std::string& before = "") const {
-    return run_espdiff(arguments + " --device cpu --threads 1", "cd " + folder.file("") + " && " + before);
+    return run_espdiff(arguments + " --device cpu --threads " + std::to_string(n_threads),
+                       "cd " + folder.file("") + " && " + before);
   }
   /// Verbs that take no device.
   Outcome read(const std::string& arguments, const std::string& before = "") const {
@@ -159,12 +161,13 @@ TEST_CASE("a complete file gets causes: its frames are read again, and must be t
                  "in the folder in which they were mapped, or put the file back"));
 }
 
-TEST_CASE("kill -9 at any time: the run resumes to the same bytes; shards merge to them") {
-  const Runs in;
+TEST_CASE("kill -9 at any time: the run resumes to the same bytes, by several threads too; shards merge to them") {
+  Runs in;
   const std::string run = in.groups + " -q -o ";
   REQUIRE(in.ensemble(run + "whole").status == 0);
   const std::string expected = read_file(in.folder.file("whole.h5"));
   int n_killed = 0;
+  in.n_threads = 3;
   for (int i = 0; i < 10; ++i) {
     char delay[32];
     std::snprintf(delay, sizeof delay, "timeout -s KILL %.2f ", 0.15 + 0.1 * i);
@@ -187,6 +190,40 @@ TEST_CASE("kill -9 at any time: the run resumes to the same bytes; shards merge 
   CHECK(read_file(in.folder.file("all.h5")) == expected);
   REQUIRE(in.from("all").status == 0);
   CHECK(read_file(in.folder.file("all.json")) == read_file(in.folder.file("whole.json")));
+}
+
+TEST_CASE("frames that are mapped beside each other: the bytes, the causes and the errors of one after the other") {
+  Runs in;
+  // The third frame of a replicate has no surface: its atoms are apart from each other by more than a grid may have.
+  std::string apart = models(2, false, true);
+  const std::size_t model = apart.find("MODEL     3"), atom = apart.find(" 2.400 ", model);
+  REQUIRE(atom != std::string::npos);
+  apart.replace(atom, 7, " 9.0e8 ");
+  const std::string run = in.groups + " --patch end=//A/7-8 --causes 'patch end' -q --overwrite -o ";
+  const auto bytes_of = [&](const std::string& name) {
+    std::string all;
+    for (const char* ending : {".h5", ".json", ".causes.csv", ".residues.csv"})
+      all += read_file(in.folder.file(name + ending));
+    return all;
+  };
+  std::string errors[2], bytes[2], whole[2];
+  for (const int i : {0, 1}) {
+    in.n_threads = i == 0 ? 1 : 3;
+    in.folder.write("w2.pqr", models(2, false, true));
+    REQUIRE(in.ensemble(run + "out").status == 0);
+    whole[i] = bytes_of("out");
+    in.folder.write("w2.pqr", apart);
+    const Outcome stopped = in.ensemble(run + "stopped");
+    CHECK(stopped.status != 0);
+    errors[i] = stopped.err;
+    const Outcome skipped = in.ensemble(run + "skipped --on-error skip");
+    REQUIRE_MESSAGE(skipped.status == 0, skipped.err);
+    bytes[i] = bytes_of("skipped");
+  }
+  CHECK(contains(errors[0], "wild, replicate w2, frame 2: "));
+  CHECK(errors[0] == errors[1]);
+  CHECK(whole[0] == whole[1]);
+  CHECK(bytes[0] == bytes[1]);
 }
 
 TEST_CASE("fields have results of their own: found where they differ, resumed, sharded and computed again") {
