@@ -274,6 +274,12 @@ Workers workers_for(const Engine& engine, std::size_t n_items, double bytes_each
   return workers;
 }
 
+Workers workers_for_frames(const Engine& engine, std::size_t n_frames, std::size_t n_atoms, std::size_t bytes_of_map) {
+  constexpr std::size_t kLeastFramesEach = 2, kMapsEach = 3;  // of the frame that is computed, and of two that wait
+  return workers_for(engine, std::max<std::size_t>(1, n_frames / kLeastFramesEach),
+                     kBytesOfAtom * static_cast<double>(n_atoms) + static_cast<double>(kMapsEach * bytes_of_map));
+}
+
 void compute_items(Engine& engine, const Workers& workers, const ItemGroups& groups,
                    const std::function<ComputeItem(Engine&)>& begin,
                    const std::function<void(std::size_t, const Error&)>& failed,

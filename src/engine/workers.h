@@ -23,6 +23,11 @@ struct Workers {
 /// @param bytes_each of the host, that one item takes at a time
 Workers workers_for(const Engine& engine, std::size_t n_items, double bytes_each);
 
+/// The same for frames that are compared with one state, each on a thread that prepares that state for itself first, at
+/// about the cost of a frame.
+/// @param n_atoms of a frame  @param bytes_of_map of the largest given map; 0 where maps are computed
+Workers workers_for_frames(const Engine& engine, std::size_t n_frames, std::size_t n_atoms, std::size_t bytes_of_map);
+
 /// Items in groups: what one thread computes one after the other, because they share something.
 struct ItemGroups {
   std::size_t n_items = 0;

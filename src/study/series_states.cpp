@@ -11,7 +11,7 @@ namespace espdiff {
 void SeriesStates::take_source(ComparedState state, const State* given) {
   if (given != nullptr) add_map(*given, plan_, options_.temperature_K, state);
   source_ = std::move(state);
-  frame_ = {};
+  frame_.reset();
   const Molecule& molecule = source_.loaded.molecule;
   source_.take_parts(source_parts(molecule, source_.whole(), molecule, source_.whole(), options_.input));
   Molecule surface = molecule;
@@ -21,9 +21,10 @@ void SeriesStates::take_source(ComparedState state, const State* given) {
 
 StepInput SeriesStates::step(ComparedState frame, const State& given) {
   add_map(given, plan_, options_.temperature_K, frame);
-  frame_ = std::move(frame);
-  set_frame_radii(surface_, frame_.loaded.molecule, options_.input.radii);
-  return {source_side(), frame_.side(), {}, &source_.loaded, &frame_.loaded};
+  const auto held = std::make_shared<ComparedState>(std::move(frame));
+  set_frame_radii(surface_, held->loaded.molecule, options_.input.radii);
+  frame_ = held;
+  return {source_side(), held->side(), {}, &source_.loaded, &held->loaded, held};
 }
 
 }  // namespace espdiff

@@ -1,6 +1,8 @@
 // series_states.h: the two states of each step of a series: a source, whose surface is made once, and a frame.
 #pragma once
 
+#include <memory>
+
 #include "options/options.h"
 #include "study/state.h"
 #include "trajectory/trajectory.h"
@@ -21,13 +23,14 @@ class SeriesStates {
   /// @param given the state with its map; null where `state` has its map already
   /// @throws as add_map(), set_surface_radii(), source_parts()
   void take_source(ComparedState state, const State* given);
-  /// The sides of the source and this frame, which stay until the next one is taken.
+  /// The sides of the source and this frame, which stay as long as the step.
   /// @param given has the frame's map. @throws as add_map(), set_frame_radii()
   StepInput step(ComparedState frame, const State& given);
 
   bool has_source() const { return surface_.size() > 0; }
   const ComparedState& source() const { return source_; }
-  const ComparedState& frame() const { return frame_; }
+  /// The last one of step(). @pre there was one since the source was taken
+  const ComparedState& frame() const { return *frame_; }
   /// The source's molecule with the radii of its surface.
   const Molecule& surface() const { return surface_; }
   /// The source's side of a comparison; refers to this.
@@ -38,7 +41,8 @@ class SeriesStates {
  private:
   const CompareOptions& options_;
   PotentialPlan plan_;
-  ComparedState source_, frame_;
+  ComparedState source_;
+  std::shared_ptr<const ComparedState> frame_;
   Molecule surface_;
 };
 

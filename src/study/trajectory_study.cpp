@@ -168,23 +168,37 @@ TrajectorySteps::TrajectorySteps(const TrajectoryRequest& request, TrajectoryPla
   run_ = begin_trajectory(request, std::move(plan), std::move(run));
 }
 
+void TrajectorySteps::take_source(std::optional<int> frame, const Progress& progress) {
+  states_.take_source(given_.read(StateRole::kSource, frame, states_, progress), &given_.given(StateRole::kSource));
+}
+
+void TrajectorySteps::take_one_source(const Progress& progress) {
+  if (!has_one_source_ || states_.has_source()) return;
+  take_source(std::nullopt, progress);
+  run_->note_inputs(given_.inputs(states_));
+}
+
+StepInput TrajectorySteps::read(const TrajectoryStep& step, const Progress& progress) {
+  if (step.source) take_source(step.source, progress);
+  StepInput both =
+      states_.step(given_.read(StateRole::kTarget, step.frame, states_, progress), given_.given(StateRole::kTarget));
+  both.inputs = given_.inputs(states_);
+  return both;
+}
+
 const SeriesRow* TrajectorySteps::step(Engine& engine, const Progress& progress) {
-  const auto take_source = [&](std::optional<int> frame) {
-    states_.take_source(given_.read(StateRole::kSource, frame, states_, progress), &given_.given(StateRole::kSource));
-  };
-  if (has_one_source_ && !states_.has_source()) {
-    take_source(std::nullopt);
-    run_->note_inputs(given_.inputs(states_));
+  take_one_source(progress);
+  return run_->step(
+      engine, [&] { return read(run_->next(), progress); }, progress);
+}
+
+void TrajectorySteps::finish(Engine& engine, const Progress& progress) {
+  if (!run_->is_done() && run_->is_independent()) {
+    take_one_source(progress);
+    run_->finish(
+        engine, states_.surface().size(), [&](const TrajectoryStep& step) { return read(step, progress); }, progress);
   }
-  const auto sides = [&] {
-    const TrajectoryStep& step = run_->next();
-    if (step.source) take_source(step.source);
-    StepInput both =
-        states_.step(given_.read(StateRole::kTarget, step.frame, states_, progress), given_.given(StateRole::kTarget));
-    both.inputs = given_.inputs(states_);
-    return both;
-  };
-  return run_->step(engine, sides, progress);
+  while (!run_->is_done()) step(engine, progress);
 }
 
 TrajectorySummary run_trajectory(const TrajectoryStudy& study, Engine& engine, const Progress& progress) {
@@ -202,7 +216,7 @@ TrajectorySummary run_trajectory(const TrajectoryStudy& study, Engine& engine, c
   TrajectoryRun& run = steps.run();
   if (study.tell && !run.warning().empty()) study.tell(run.warning());
   run.note_inputs(states.inputs(states.states()));
-  while (!run.is_done()) steps.step(engine, progress);
+  steps.finish(engine, progress);
   return run.summary();
 }
 

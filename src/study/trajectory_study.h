@@ -76,8 +76,15 @@ class TrajectorySteps {
   /// Compares the next frame and adds its row, as TrajectoryRun::step(). What fails about the one source of all frames
   /// ends the run, whatever is to be done about errors of frames.
   const SeriesRow* step(Engine& engine, const Progress& progress);
+  /// All steps that are left; where they are independent, several beside each other.
+  void finish(Engine& engine, const Progress& progress);
 
  private:
+  void take_source(std::optional<int> frame, const Progress& progress);
+  /// The source of all frames, before the first of them is read.
+  void take_one_source(const Progress& progress);
+  StepInput read(const TrajectoryStep& step, const Progress& progress);
+
   StepStates& given_;
   SeriesStates& states_;
   bool has_one_source_;

@@ -63,11 +63,12 @@ std::string residue_column(const Residue& residue) {
 
 ResidueCsv::ResidueCsv(std::string path, std::string quantity, ExistingFile existing,
                        const std::vector<FieldRequest>& fields)
-    : file_(std::move(path), existing), quantity_(std::move(quantity)) {
+    : file_(std::move(path), existing), replaces_(existing == ExistingFile::kReplace), quantity_(std::move(quantity)) {
   if (!quantity_.empty()) require_residue_quantity(quantity_, fields);
 }
 
 void ResidueCsv::resume(const std::vector<std::string>& frames, const std::string& fingerprint) {
+  if (replaces_) return;
   const Message anew = "; " + switched_on("overwrite") + " begins anew";
   const std::string text = file_.has_content() ? file_.text() : "", lines = complete_lines(text);
   if (is_part_of_head(text)) {

@@ -36,8 +36,8 @@ class ResidueCsv {
   const std::string& path() const { return file_.path(); }
   /// As it was asked for; empty for the usual one.
   const std::string& quantity() const { return quantity_; }
-  /// Continues an existing file: keeps the rows of `frames`, which it must have, and drops one more, which a killed
-  /// run wrote.
+  /// Continues an existing file, unless it is to be replaced: keeps the rows of `frames`, which it must have, and drops
+  /// one more, which a killed run wrote.
   /// @param frames that have numbers in the trajectory's file  @param fingerprint of its head
   /// @throws FormatError, InputError (the file is of another run or quantity; rows are missing)
   void resume(const std::vector<std::string>& frames, const std::string& fingerprint);
@@ -50,6 +50,7 @@ class ResidueCsv {
 
  private:
   AppendedFile file_;
+  bool replaces_;  ///< what is there, by the first row
   std::string quantity_;
   std::vector<std::string> columns_;  ///< of the file; empty before its head is written
 };

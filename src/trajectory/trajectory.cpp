@@ -8,6 +8,7 @@
 
 #include "certificate/result.h"
 #include "compare/stages/readings.h"
+#include "engine/read_and_compute.h"
 #include "io/text/text_cursor.h"
 #include "mapping/input.h"
 #include "report/residue_values.h"
@@ -68,6 +69,12 @@ void check_causes_of_frames(const CompareOptions& options, const std::string& qu
   if (quantity != kContribution)
     throw InputError(option("causes") + " of a trajectory are written as a table of residues: give " +
                      option("residues", "FILE") + " and " + option("residue-quantity", kContribution));
+}
+
+/// Which names the files of their fields.
+void name_frames(const TrajectoryStep& step, StepInput& input) {
+  input.target.fields.frame = step.frame;
+  input.source.fields.frame = step.source.value_or(-1);
 }
 
 std::string in_front(int frame) { return "frame " + std::to_string(frame) + ": "; }
@@ -219,17 +226,71 @@ StartFrom TrajectoryRun::start_of_step() const {
 }
 
 SeriesRow TrajectoryRun::compare(Engine& engine, StepInput input, const Progress& progress) {
-  input.target.fields.frame = next().frame;  // which names the files of its fields
-  input.source.fields.frame = next().source.value_or(-1);
+  name_frames(next(), input);
   if (series_ == nullptr || plan_.against != Reference::kOne)
     series_ = std::make_unique<Series>(engine, input.source, plan_.options);
   if (restored_) series_->restore(std::move(*restored_));
   restored_.reset();
-  CompareResult result = series_->step(input.target, start_of_step(), progress);
+  Compared frame = compared(next(), std::move(input), *series_, start_of_step(), progress);
+  add_residues(frame);
+  return std::move(frame.row);
+}
+
+TrajectoryRun::Compared TrajectoryRun::compared(const TrajectoryStep& step, StepInput input, Series& series,
+                                                StartFrom start, const Progress& progress) const {
+  CompareResult result = series.step(input.target, start, progress);
   if (input.source_origin != nullptr) note_states(result, *input.source_origin, *input.target_origin, {});
+  SeriesRow row(step.frame, step.reference, *input.source.molecule, *input.target.molecule, result, plan_.options);
+  std::shared_ptr<const CompareResult> kept;
+  if (residues_) kept = std::make_shared<const CompareResult>(std::move(result));
+  return {std::move(row), std::move(input), std::move(kept)};
+}
+
+void TrajectoryRun::add_residues(const Compared& frame) {
   residue_line_.reset();
-  if (residues_) residue_line_ = residues_->row(next().frame, *input.source.molecule, *input.target.molecule, result);
-  return {next().frame, next().reference, *input.source.molecule, *input.target.molecule, result, plan_.options};
+  if (residues_)
+    residue_line_ =
+        residues_->row(next().frame, *frame.input.source.molecule, *frame.input.target.molecule, *frame.result);
+}
+
+bool TrajectoryRun::is_independent() const {
+  return plan_.against == Reference::kOne && plan_.start == StartFrom::kSource;
+}
+
+void TrajectoryRun::finish(Engine& engine, std::size_t n_atoms,
+                           const std::function<StepInput(const TrajectoryStep&)>& read, const Progress& progress) {
+  const std::size_t first = position_, n = steps_.size() - first;
+  const Progress inner([&](const std::string& stage, double) {
+    if (is_done()) return;
+    share_ = std::max(share_, static_cast<double>(position_) / static_cast<double>(steps_.size()));
+    progress.report(in_front(next().frame) + (stage.empty() ? "read" : stage), share_);
+  });
+  const auto read_step = [&](std::size_t i) {
+    StepInput input = read(steps_[first + i]);
+    name_frames(steps_[first + i], input);
+    return input;
+  };
+  const auto begin = [&](Engine& of_worker) -> ItemSteps<StepInput, Compared>::Compute {
+    const auto series = std::make_shared<std::unique_ptr<Series>>();
+    return [&, series](std::size_t i, const StepInput& input, const Progress& stages) {
+      if (*series == nullptr) *series = std::make_unique<Series>(of_worker, input.source, plan_.options);
+      return compared(steps_[first + i], input, **series, StartFrom::kSource, stages);
+    };
+  };
+  const auto done = [&](std::size_t, const Compared& frame) {
+    note_inputs(frame.input.inputs);
+    file_.require_all_noted();
+    const auto unlike = error_of([&] { add_residues(frame); });
+    unlike ? skip(*unlike) : end_step(frame.row);
+  };
+  try {
+    inner.report("read", 0.0);
+    read_and_compute<StepInput, Compared>(
+        engine, workers_for_frames(engine, n, n_atoms, 0), n,
+        {read_step, begin, done, [&](std::size_t, const Error& error) { skip(error); }}, inner);
+  } catch (const Cancelled&) {
+    throw cancelled();
+  }
 }
 
 /// Writes the row first, then its mapping, both before the next step.

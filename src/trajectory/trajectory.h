@@ -45,13 +45,14 @@ struct TrajectoryStep {
   std::string reference;      ///< the source, as the row names it
 };
 
-/// The two sides of a step. The objects they point to must live until the step ends; the common source of all frames
-/// until the run ends.
+/// The two sides of a step. The objects they point to must live as long as `held`, or else until the step ends; the
+/// common source of all frames until the run ends.
 struct StepInput {
   CompareInput source, target;
   std::vector<InputFile> inputs{};             ///< inputs that all rows depend on; see TrajectoryRun::note_inputs()
   const StateOrigin* source_origin = nullptr;  ///< for the row's warnings; both or none
   const StateOrigin* target_origin = nullptr;
+  std::shared_ptr<const void> held{};  ///< keeps the target in memory
 };
 
 struct TrajectorySummary {
@@ -93,6 +94,15 @@ class TrajectoryRun {
   /// @throws as Series::step() and `read`, with the frame's number in front; Error of class kCancelled (rows so far
   ///         stay); InputError (a row that is computed again differs); IoError
   const SeriesRow* step(Engine& engine, const std::function<StepInput()>& read, const Progress& progress);
+  /// Whether no step depends on another one: all have one source, from which their mappings start.
+  bool is_independent() const;
+  /// Compares all frames that are left, several beside each other: rows, their order and their bytes are those of one
+  /// step after the other. @pre is_independent(), !is_done()
+  /// @param n_atoms of the source; frames have about as many
+  /// @param read as for step(), of the step; it is called a few frames ahead, and its input holds its target
+  /// @throws as step()
+  void finish(Engine& engine, std::size_t n_atoms, const std::function<StepInput(const TrajectoryStep&)>& read,
+              const Progress& progress);
   /// Adds a row with the error of a frame that cannot be read.
   /// @throws Error the same with the frame's number in front, unless errors are skipped
   const SeriesRow* skip(const Error& why);
@@ -108,6 +118,15 @@ class TrajectoryRun {
   std::string state_fingerprint(const std::string& frame) const;
   void remove_state() const;
   void resume_residues();
+  /// A frame as it is compared, and the result as far as the table of residues needs it.
+  struct Compared {
+    SeriesRow row;
+    StepInput input;
+    std::shared_ptr<const CompareResult> result;
+  };
+  Compared compared(const TrajectoryStep& step, StepInput input, Series& series, StartFrom start,
+                    const Progress& progress) const;
+  void add_residues(const Compared& frame);
   SeriesRow compare(Engine& engine, StepInput input, const Progress& progress);
   StartFrom start_of_step() const;
   const SeriesRow* end_step(const SeriesRow& row);

@@ -85,6 +85,15 @@ TEST_CASE("residues of a trajectory are resumed at every byte to the same bytes"
     add(file, 5, 1.5);
     CHECK(read_file(path) == whole);
   }
+  // What is to be replaced stays until the first row.
+  {
+    ResidueCsv file(path, "mean_displacement_A", ExistingFile::kReplace);
+    file.resume({}, "abc");
+    CHECK(read_file(path) == whole);
+    add(file, 0, 0.5);
+    CHECK(contains(read_file(path), "\n0,0.25,0.25,0.25\n"));
+    CHECK_FALSE(contains(read_file(path), "\n3,"));
+  }
   // Nothing is done: the file begins anew over the head, or the one row, of a killed run.
   for (const std::size_t n : {std::size_t{0}, std::size_t{5}, head.size(), head.size() + 11}) {
     std::ofstream(path) << whole.substr(0, n);

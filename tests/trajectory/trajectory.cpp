@@ -83,6 +83,18 @@ struct Runner {
     return run.summary();
   }
 
+  /// All frames beside each other.
+  TrajectorySummary at_once(const TrajectoryPlan& plan, const std::string& path,
+                            ExistingFile existing = ExistingFile::kRefuse, const Progress& progress = {}) {
+    TrajectoryRun run(plan, SeriesCsv(path, kSeriesHead, existing),
+                      espdiff::ResidueCsv(path + ".residues", "", existing));
+    REQUIRE(run.is_independent());
+    run.finish(
+        *engine, motion.source.molecule.size(), [&](const espdiff::TrajectoryStep& step) { return read(step.frame); },
+        progress);
+    return run.summary();
+  }
+
   /// Ends while frame `last` is computed, its row not written.
   void interrupted(const TrajectoryPlan& plan, const std::string& path, int last) {
     Progress* asked = nullptr;
@@ -248,6 +260,53 @@ TEST_CASE("a frame that fails ends the run and is named, or is a row with the re
   CHECK(file.rows()[1]["error"] == "frame1.pqr: cannot be read, \"gone\" for good");
   CHECK(file.rows()[1]["rmsd_A"].empty());
   CHECK(file.rows()[2]["start"] == "source");
+}
+
+TEST_CASE("frames that do not depend on each other: beside each other the bytes of one after the other") {
+  const Motion motion;
+  const ScratchFolder folder;
+  Runner runner{motion};
+  TrajectoryPlan run = motion.plan(Method::kMorph);
+  run.start = StartFrom::kSource;
+  runner(run, folder.file("a.csv"));
+  const std::string expected = read_file(folder.file("a.csv"));
+  CHECK(runner.at_once(run, folder.file("b.csv")).n_rows == 5);
+  CHECK(read_file(folder.file("b.csv")) == expected);
+  const std::string residues = read_file(folder.file("b.csv.residues"));
+  CHECK(std::count(residues.begin(), residues.end(), '\n') == 8);
+  // Stopped between two rows and resumed; replaced.
+  Progress* asked = nullptr;
+  Progress progress([&](const std::string& stage, double) {
+    if (stage.rfind("frame 2:", 0) == 0) asked->request_cancel();
+  });
+  asked = &progress;
+  const std::string stopped =
+      message_of([&] { runner.at_once(run, folder.file("c.csv"), ExistingFile::kRefuse, progress); });
+  CHECK(contains(stopped, "cancelled after "));
+  CHECK(contains(stopped, " of 5 rows; resume continues " + folder.file("c.csv")));
+  runner.at_once(run, folder.file("c.csv"), ExistingFile::kResume);
+  CHECK(read_file(folder.file("c.csv")) == expected);
+  CHECK(read_file(folder.file("c.csv.residues")) == residues);
+  runner.at_once(run, folder.file("c.csv"), ExistingFile::kReplace);
+  CHECK(read_file(folder.file("c.csv")) == expected);
+  CHECK(read_file(folder.file("c.csv.residues")) == residues);
+  // A frame that fails, and inputs that are others than the file's.
+  runner.read = [&motion](int frame) {
+    if (frame == 1) throw espdiff::InputError("frame 1 is gone");
+    return StepInput{motion.source.input(), motion.side(frame).input(), {{"source", "s.pqr", "abc"}}};
+  };
+  CHECK(message_of([&] { runner.at_once(run, folder.file("d.csv")); }) == "frame 1: frame 1 is gone");
+  CHECK(rows_of(folder.file("d.csv")).size() == 1);
+  run.skip_errors = true;
+  CHECK(runner.at_once(run, folder.file("e.csv")).n_skipped == 1);
+  runner(run, folder.file("f.csv"));
+  CHECK(read_file(folder.file("e.csv")) == read_file(folder.file("f.csv")));
+  run.frames = {0, 1, 2, 3, 4, 3};
+  runner.read = [&motion](int frame) {
+    return StepInput{motion.source.input(), motion.side(frame).input(), {{"source", "s.pqr", "def"}}};
+  };
+  CHECK(contains(message_of([&] { runner.at_once(run, folder.file("e.csv"), ExistingFile::kResume); }),
+                 "was made with source_sha256 'abc'"));
 }
 
 TEST_CASE("each frame against the one before") {

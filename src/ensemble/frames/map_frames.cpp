@@ -1,32 +1,17 @@
-// map_frames.cpp: frames are read by the thread that asked, and mapped by workers.
+// map_frames.cpp: each worker has a template of its own.
 #include "ensemble/frames/map_frames.h"
 
 #include <algorithm>
 #include <memory>
-#include <numeric>
-#include <optional>
-#include <utility>
-#include <vector>
 
 #include "compare/template_mapping.h"
-#include "engine/workers.h"
+#include "engine/read_and_compute.h"
 
 namespace espdiff {
 namespace {
 
-/// A frame from its reading to its end.
-struct Place {
-  HeldInput input;
-  TemplateFrame frame;
-  std::optional<Error> error;
-};
-
 Workers workers_of(const FramesToMap& frames) {
-  // A thread's own template costs about as much as a frame. Inputs wait for their thread, and results for their turn.
-  constexpr std::size_t kLeastFramesEach = 2, kWaiting = 2;
-  const double bytes_each =
-      kBytesOfAtom * static_cast<double>(frames.n_atoms) + static_cast<double>(kWaiting * frames.bytes_of_map);
-  return workers_for(frames.engine, std::max<std::size_t>(1, frames.n / kLeastFramesEach), bytes_each);
+  return workers_for_frames(frames.engine, frames.n, frames.n_atoms, frames.bytes_of_map);
 }
 
 }  // namespace
@@ -35,41 +20,15 @@ int frames_at_once(const FramesToMap& frames) { return workers_of(frames).n; }
 
 void map_frames(const FramesToMap& frames, const std::function<void(std::size_t, const TemplateFrame&)>& done,
                 const std::function<void(std::size_t, const Error&)>& failed, const Progress& progress) {
-  ItemGroups each{frames.n, std::vector<std::size_t>(frames.n)};
-  std::iota(each.ends.begin(), each.ends.end(), std::size_t{1});
-  std::vector<Place> places(frames.n);
-  const auto begin = [&](Engine& of_thread) -> ComputeItem {
+  const auto begin = [&](Engine& of_worker) -> ItemSteps<HeldInput, TemplateFrame>::Compute {
     std::shared_ptr<TemplateMapping> own;
-    if (&of_thread != &frames.engine) own = frames.mapping.beside(of_thread, {});
-    return [&, own](std::size_t i, const Progress& stages) {
-      Place& place = places[i];
-      if (place.error) return;
-      place.frame = (own ? *own : frames.mapping).map(place.input.input, stages);
-      place.input = {};
+    if (&of_worker != &frames.engine) own = frames.mapping.beside(of_worker, {});
+    return [&, own](std::size_t, const HeldInput& frame, const Progress& stages) {
+      return (own ? *own : frames.mapping).map(frame.input, stages);
     };
   };
-  const auto keep_error = [&](std::size_t i, const Error& error) {
-    places[i].error = error;
-    places[i].input = {};
-  };
-  const auto hand_over = [&](std::size_t i) {
-    const Place place = std::exchange(places[i], {});
-    if (place.error) {
-      failed(i, *place.error);
-    } else {
-      done(i, place.frame);
-    }
-  };
-  const auto supply = [&](std::size_t i) {
-    try {
-      places[i].input = frames.read(i);
-    } catch (const Cancelled&) {
-      throw;
-    } catch (const Error& error) {
-      places[i].error = error;
-    }
-  };
-  compute_items(frames.engine, workers_of(frames), each, begin, keep_error, hand_over, progress, supply);
+  read_and_compute<HeldInput, TemplateFrame>(frames.engine, workers_of(frames), frames.n,
+                                             {frames.read, begin, done, failed}, progress);
 }
 
 }  // namespace espdiff
