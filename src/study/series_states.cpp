@@ -11,7 +11,7 @@ namespace espdiff {
 void SeriesStates::take_source(ComparedState state, const State* given) {
   if (given != nullptr) add_map(*given, plan_, options_.temperature_K, state);
   source_ = std::move(state);
-  frame_.reset();
+  frame_ = std::make_shared<const ComparedState>();
   const Molecule& molecule = source_.loaded.molecule;
   source_.take_parts(source_parts(molecule, source_.whole(), molecule, source_.whole(), options_.input));
   Molecule surface = molecule;

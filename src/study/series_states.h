@@ -29,7 +29,7 @@ class SeriesStates {
 
   bool has_source() const { return surface_.size() > 0; }
   const ComparedState& source() const { return source_; }
-  /// The last one of step(). @pre there was one since the source was taken
+  /// The last one of step(); empty before the first one of a source.
   const ComparedState& frame() const { return *frame_; }
   /// The source's molecule with the radii of its surface.
   const Molecule& surface() const { return surface_; }
@@ -42,7 +42,7 @@ class SeriesStates {
   const CompareOptions& options_;
   PotentialPlan plan_;
   ComparedState source_;
-  std::shared_ptr<const ComparedState> frame_;
+  std::shared_ptr<const ComparedState> frame_ = std::make_shared<const ComparedState>();
   Molecule surface_;
 };
 
