@@ -17,11 +17,10 @@ namespace espdiff {
 /// What is done with each of n items, from its input to its result.
 template <typename Input, typename Result>
 struct ItemSteps {
-  /// Gives each worker its function; called on the worker's thread, with its engine.
   using Compute = std::function<Result(std::size_t item, const Input& input, const Progress& progress)>;
 
   std::function<Input(std::size_t)> read;  ///< called on the asking thread, in the items' order, a few items ahead
-  std::function<Compute(Engine&)> begin;
+  std::function<Compute(Engine&)> begin;   ///< gives each worker its function; called on its thread, with its engine
   /// Called on the asking thread for each item in ascending order; what they throw ends the run. The latter is for an
   /// item that cannot be read or computed, but not for Cancelled.
   std::function<void(std::size_t, Result)> done;

@@ -74,7 +74,7 @@ class Team {
   void supply(std::size_t n) {
     const std::lock_guard<std::mutex> lock(mutex_);
     n_supplied_ = n;
-    supplied_.notify_all();
+    to_take_.notify_all();
   }
 
   /// Waits at most so long for an item. @returns whether it is done
@@ -101,8 +101,7 @@ class Team {
       const std::lock_guard<std::mutex> lock(mutex_);
       next_group_ = groups_.ends.size();
       returned_.clear();
-      is_stopped_ = true;
-      supplied_.notify_all();
+      to_take_.notify_all();
     }
     for (const auto& place : places_) place->progress.request_cancel();
     for (std::thread& thread : threads_) {
@@ -166,8 +165,13 @@ class Team {
     return true;
   }
 
+  /// Waits for a group whose inputs are there, or for items that another thread gives back: inputs behind those are not
+  /// supplied before they are done. @returns whether there is one
   bool take(Range& range) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    std::unique_lock<std::mutex> lock(mutex_);
+    to_take_.wait(lock, [&] {
+      return !returned_.empty() || next_group_ >= groups_.ends.size() || groups_.ends[next_group_] <= n_supplied_;
+    });
     if (!returned_.empty()) {
       range = returned_.back();
       returned_.pop_back();
@@ -188,6 +192,7 @@ class Team {
     if (n_staying_ == 1) return false;
     --n_staying_;
     returned_.push_back(range);
+    to_take_.notify_one();
     place.item = kNoItem;
     return true;
   }
@@ -198,13 +203,12 @@ class Team {
     ended_.wait(lock, [&] { return n_alive_ == 1; });
   }
 
-  /// Waits for the item's input. @returns whether it is to be computed: not behind one that failed
+  /// @returns whether it is to be computed: not behind one that failed
   bool begin_item(Place& place, std::size_t item) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    supplied_.wait(lock, [&] { return item < n_supplied_ || is_stopped_; });
+    const std::lock_guard<std::mutex> lock(mutex_);
     place.item = item;
     place.stage.clear();
-    return item < first_failed_ && !is_stopped_;
+    return item < first_failed_;
   }
 
   void end_item(Place& place, const std::exception_ptr& error, bool is_computed = true) {
@@ -225,9 +229,8 @@ class Team {
   const std::function<ComputeItem(Engine&)>& begin_;
   const Failed& failed_;
   std::mutex mutex_;
-  std::condition_variable news_, ended_, supplied_;
+  std::condition_variable news_, ended_, to_take_;
   std::size_t n_supplied_;  ///< items whose inputs are there
-  bool is_stopped_ = false;
   std::size_t next_group_ = 0;
   std::vector<Range> returned_;  ///< by threads that left
   int n_staying_, n_alive_;      ///< threads that will take items again; threads that hold memory

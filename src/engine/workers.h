@@ -51,7 +51,8 @@ constexpr double kBytesOfAtom = 4e4;
 /// @param progress receives the stage of the first item that is not done, and the fraction of items done; on this
 /// thread
 /// @param supply called on this thread for each item, in ascending order, before the item is computed and while others
-///        are; a few items ahead, so that few inputs are in memory. What it throws ends the run.
+///        are; a few items ahead, so that few inputs are in memory. What it throws ends the run. Groups are then of one
+///        item each.
 /// @throws what `failed` throws for the first of the items that fail, after done() of all items before it; what done()
 ///         throws; Cancelled
 void compute_items(Engine& engine, const Workers& workers, const ItemGroups& groups,

@@ -265,8 +265,17 @@ void TrajectoryRun::finish(Engine& engine, std::size_t n_atoms,
     share_ = std::max(share_, static_cast<double>(position_) / static_cast<double>(steps_.size()));
     progress.report(in_front(next().frame) + (stage.empty() ? "read" : stage), share_);
   });
+  // The head names the inputs of the frames up to a row, as one after the other: what is read ahead waits.
+  std::vector<std::optional<std::vector<InputFile>>> inputs(n);
+  const auto note = [&](std::size_t i) {
+    const auto of_frame = std::exchange(inputs[i], std::nullopt);
+    if (!of_frame) return;  // it could not be read
+    note_inputs(*of_frame);
+    file_.require_all_noted();
+  };
   const auto read_step = [&](std::size_t i) {
     StepInput input = read(steps_[first + i]);
+    inputs[i] = std::move(input.inputs);
     name_frames(steps_[first + i], input);
     return input;
   };
@@ -277,17 +286,19 @@ void TrajectoryRun::finish(Engine& engine, std::size_t n_atoms,
       return compared(steps_[first + i], input, **series, StartFrom::kSource, stages);
     };
   };
-  const auto done = [&](std::size_t, const Compared& frame) {
-    note_inputs(frame.input.inputs);
-    file_.require_all_noted();
+  const auto done = [&](std::size_t i, const Compared& frame) {
+    note(i);
     const auto unlike = error_of([&] { add_residues(frame); });
     unlike ? skip(*unlike) : end_step(frame.row);
   };
+  const auto failed = [&](std::size_t i, const Error& error) {
+    note(i);
+    skip(error);
+  };
   try {
     inner.report("read", 0.0);
-    read_and_compute<StepInput, Compared>(
-        engine, workers_for_frames(engine, n, n_atoms, 0), n,
-        {read_step, begin, done, [&](std::size_t, const Error& error) { skip(error); }}, inner);
+    read_and_compute<StepInput, Compared>(engine, workers_for_frames(engine, n, n_atoms, 0), n,
+                                          {read_step, begin, done, failed}, inner);
   } catch (const Cancelled&) {
     throw cancelled();
   }

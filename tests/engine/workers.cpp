@@ -116,6 +116,28 @@ TEST_CASE("an item for which there is too little memory although it is alone is 
   CHECK(run.is_in_order());
 }
 
+TEST_CASE("an item that is given back for lack of memory is computed although all inputs ahead are used up") {
+  const auto engine = cpu_engine(1);
+  espdiff::ItemGroups each{kItems, {}};
+  for (std::size_t end = 1; end <= kItems; ++end) each.ends.push_back(end);
+  std::atomic<int> n_failed{0};
+  std::vector<std::size_t> done;
+  const auto begin = [&](Engine&) -> ComputeItem {
+    return [&](std::size_t item, const Progress&) {
+      if (item != 0 || n_failed++ != 0) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));  // the others wait for inputs by then
+      throw MemoryError("too little memory");
+    };
+  };
+  const auto failed = [](std::size_t, const Error& error) { throw error; };
+  compute_items(
+      *engine, Workers{3, 1}, each, begin, failed, [&](std::size_t item) { done.push_back(item); }, {},
+      [](std::size_t) {});
+  CHECK(n_failed == 2);
+  CHECK(done.size() == kItems);
+  CHECK(std::is_sorted(done.begin(), done.end()));
+}
+
 TEST_CASE("inputs are supplied in order on one thread, a few ahead, and none behind an error of theirs") {
   for (const int n_threads : {1, 3}) {
     CAPTURE(n_threads);

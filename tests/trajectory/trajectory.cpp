@@ -301,6 +301,26 @@ TEST_CASE("frames that do not depend on each other: beside each other the bytes 
   CHECK(runner.at_once(run, folder.file("e.csv")).n_skipped == 1);
   runner(run, folder.file("f.csv"));
   CHECK(read_file(folder.file("e.csv")) == read_file(folder.file("f.csv")));
+  // There is too little memory for the first frame, beside others and alone: its inputs are in the head all the same.
+  Side other = motion.side(0);
+  for (Vec3d& p : other.molecule.positions) p.x *= 1e9;
+  runner.read = [&](int frame) {
+    return StepInput{
+        motion.source.input(), (frame == 0 ? other : motion.side(frame)).input(), {{"source", "s.pqr", "abc"}}};
+  };
+  CHECK(runner.at_once(run, folder.file("g.csv")).n_skipped == 1);
+  CHECK(contains(read_file(folder.file("g.csv")), "# source_sha256: abc"));
+  runner(run, folder.file("h.csv"));
+  const auto head_of = [&](const std::string& name) {
+    const std::string text = read_file(folder.file(name));
+    return text.substr(0, text.find("\nframe,"));
+  };
+  CHECK(head_of("g.csv") == head_of("h.csv"));
+  // The error says how much memory there is at that moment; the other rows have the same bytes but for their checksums.
+  const auto rows = rows_of(folder.file("g.csv")), expected_rows = rows_of(folder.file("h.csv"));
+  REQUIRE(rows.size() == 5);
+  CHECK(contains(rows[0].back(), "of memory"));
+  for (std::size_t i = 1; i < rows.size(); ++i) CHECK(rows[i] == expected_rows[i]);
   run.frames = {0, 1, 2, 3, 4, 3};
   runner.read = [&motion](int frame) {
     return StepInput{motion.source.input(), motion.side(frame).input(), {{"source", "s.pqr", "def"}}};

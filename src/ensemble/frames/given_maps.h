@@ -19,7 +19,7 @@ struct GivenMapRequest {
   std::string array;                            ///< of VTI files with several
 };
 
-/// A file for each frame. One map is in memory at a time.
+/// A file for each frame, read when the frame is.
 class GivenMaps {
  public:
   GivenMaps() = default;

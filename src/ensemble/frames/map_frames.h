@@ -14,7 +14,7 @@ class Engine;
 class TemplateMapping;
 struct TemplateFrame;
 
-/// The frames of one run. Each thread has the template of its own, which it makes like `mapping`.
+/// The frames of one run. Each thread makes its own template, like `mapping`.
 struct FramesToMap {
   Engine& engine;
   TemplateMapping& mapping;  ///< by that engine

@@ -191,7 +191,7 @@ std::vector<EnsembleCauses> find_ensemble_causes(Engine& engine, const CompareIn
            in_words(seconds() * static_cast<double>(frames.size()) / at_once));
     ++n_done;
   };
-  const auto failed = [](std::size_t, const Error& error) { throw Error(error.error_class(), error.message()); };
+  const auto failed = [](std::size_t, const Error& error) { throw error; };
   inner.report("read", 0.0);
   map_frames(to_map, done, failed, inner);
   for (std::size_t r = 0; r < areas.size(); ++r) {
