@@ -38,8 +38,8 @@ constexpr Column kColumns[] = {
     {"intersecting_pairs", &PairRow::intersecting_pairs},
     {"same_residue_percent", &PairRow::same_residue_percent},
     {"slip_median_A", &PairRow::slip_median_A},
-    {"slip_beyond_2A_percent", &PairRow::slip_beyond_2A_percent},
-    {"slip_beyond_3A_percent", &PairRow::slip_beyond_3A_percent},
+    {"slip_percent_beyond_2_A", &PairRow::slip_percent_beyond_2_A},
+    {"slip_percent_beyond_3_A", &PairRow::slip_percent_beyond_3_A},
     {"trustworthy", &PairRow::trustworthy},
     {"mapped_twice", &PairRow::mapped_twice},
     {"local_motions", &PairRow::local_motions},
@@ -97,8 +97,8 @@ PairRow make_row(const std::string& name, const espdiff::CompareResult& result) 
   row.same_residue_percent = 100 * c.same_residue_area_fraction;
   const espdiff::SlipSummary slip = c.slip.value_or(espdiff::SlipSummary{});
   row.slip_median_A = slip.median_A;
-  row.slip_beyond_2A_percent = 100 * slip.medium_area_fraction;
-  row.slip_beyond_3A_percent = 100 * slip.large_area_fraction;
+  row.slip_percent_beyond_2_A = 100 * slip.medium_area_fraction;
+  row.slip_percent_beyond_3_A = 100 * slip.large_area_fraction;
   row.trustworthy = c.trustworthy ? 1 : 0;
   row.mapped_twice = result.mapping.other ? 1 : 0;
   row.local_motions = result.mapping.domains == espdiff::kLocalMotions ? 1 : 0;

@@ -22,7 +22,7 @@ struct PairRow {
   double intersecting_pairs = 0, same_residue_percent = 0, round_trip_mean_A = 0, round_trip_p95_A = 0, steps = 0;
   double mean_displacement_A = 0, mean_path_length_A = 0, area_mapped_A2 = 0, dirichlet_median = 0, dirichlet_p95 = 0;
   double area_ratio_p05 = 0, area_ratio_p95 = 0, irregularity_A = 0;
-  double slip_median_A = 0, slip_beyond_2A_percent = 0, slip_beyond_3A_percent = 0;
+  double slip_median_A = 0, slip_percent_beyond_2_A = 0, slip_percent_beyond_3_A = 0;
   double trustworthy = 0, mapped_twice = 0, local_motions = 0;  ///< 1 or 0
   double cavities_left_out = 0;                                 ///< of both sides
   std::vector<std::pair<std::string, double>> time_ms;          ///< stage, in order; "total" last

@@ -328,7 +328,7 @@ void run_one(const std::string& name, StageTimer timer, const std::function<void
 /// Runs the matching benchmarks case by case, so that the stages of one case share its inputs.
 nlohmann::ordered_json run_stages(const std::regex& filter) {
   constexpr std::size_t kLarge = 30000;  // atoms; seconds per stage: once will do
-  constexpr double kLeast_ms = 50;
+  constexpr double kLeastMilliseconds = 50;
   nlohmann::ordered_json records = nlohmann::ordered_json::array();
   for (const Case& of : espdiff_bench::cases()) {
     for (const espdiff_bench::BenchDevice& device : espdiff_bench::devices()) {
@@ -337,7 +337,7 @@ nlohmann::ordered_json run_stages(const std::regex& filter) {
         if (!std::regex_search(name, filter)) continue;
         const int slow = of.n_atoms > kLarge ? 1 : kSlowRepetitions;
         run_one(
-            name, {stage.slow ? slow : kRepetitions, stage.slow || stage.once ? 0 : kLeast_ms},
+            name, {stage.slow ? slow : kRepetitions, stage.slow || stage.once ? 0 : kLeastMilliseconds},
             [&](StageTimer& timer) { stage.run(timer, espdiff_bench::stage_inputs(of, device)); }, records);
       }
     }

@@ -44,7 +44,7 @@ void for_each_index(std::size_t n, Body body) {
 
 /// Allocates the temporary memory of Thrust's algorithms from the engine's pool.
 struct ScratchAllocator {
-  using value_type = char;
+  using value_type = char;  // NOLINT(readability-identifier-naming): allocators name it so
   char* allocate(std::ptrdiff_t n) {
     return static_cast<char*>(CudaContext::current()->allocate(static_cast<std::size_t>(n)));
   }
