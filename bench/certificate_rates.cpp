@@ -1,5 +1,5 @@
 // certificate_rates.cpp: how many planted errors the certificate catches, and how many easy pairs it refuses; the
-// tables of bench/study.md.
+// tables of bench/study_notes.md.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>

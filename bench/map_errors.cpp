@@ -1,5 +1,5 @@
 // map_errors.cpp: how many errors planted into given maps the check of maps finds, and how many right maps it refuses;
-// the table of bench/study.md. Each map is checked as a comparison checks it, on the surface of its own molecule.
+// the table of bench/study_notes.md. Each map is checked as a comparison checks it, on the surface of its own molecule.
 // espdiff_map_errors [--limits] [PQR...]: the proteins below, and further ones, such as those of bench/planted_inputs.
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // planted_inputs.cpp: how often the checks of charges, composition and geometry see an error planted into a structure,
-// and how often they refuse a right one; the tables of bench/study.md. bench/planted_inputs makes its structures.
+// and how often they refuse a right one; the tables of bench/study_notes.md. bench/planted_inputs makes its structures.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

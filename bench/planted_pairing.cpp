@@ -1,5 +1,5 @@
 // planted_pairing.cpp: errors of correspondence planted into crystal copies of one protein, and what the checks of the
-// inputs say of them and of the copies as they are; the table of bench/study.md.
+// inputs say of them and of the copies as they are; the table of bench/study_notes.md.
 #include "input_checks/planted_pairing.h"
 
 #include <algorithm>
