@@ -65,18 +65,22 @@ inline auto on_device() {
 constexpr std::size_t kIndicesAtOnce = 64, kFewIndices = 4096;
 
 /// Calls body(i) for each i in [0, n) in parallel. Deterministic if no call writes what another reads or writes.
-/// @throws Cancelled once this thread's CancelRequest is made; what the bodies write is then unfinished
+/// @throws Cancelled once this thread's CancelRequest is made, but not within another such loop; what the bodies write is
+/// then unfinished
 template <typename Body>
 void for_each_index(std::size_t n, Body body) {
   if (n == 0) return;
   const CancelRequest cancel;
   const std::size_t at_once = n < kFewIndices ? 1 : kIndicesAtOnce;
-  thrust::for_each_n(thrust::device, thrust::counting_iterator<std::size_t>(0), (n + at_once - 1) / at_once,
-                     [=](std::size_t block) {
-                       if (cancel.made()) return;
-                       const std::size_t end = block * at_once + at_once < n ? block * at_once + at_once : n;
-                       for (std::size_t i = block * at_once; i < end; ++i) body(i);
-                     });
+  {
+    const CancelRequest::Withheld within;
+    thrust::for_each_n(thrust::device, thrust::counting_iterator<std::size_t>(0), (n + at_once - 1) / at_once,
+                       [=](std::size_t block) {
+                         if (cancel.made()) return;
+                         const std::size_t end = block * at_once + at_once < n ? block * at_once + at_once : n;
+                         for (std::size_t i = block * at_once; i < end; ++i) body(i);
+                       });
+  }
   cancel.check();
 }
 

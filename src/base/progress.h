@@ -22,6 +22,19 @@ class CancelRequest {
     if (made()) throw Cancelled();
   }
 
+  /// While it lives, its thread has no request: a loop within another loop's iteration may not throw, since no exception
+  /// may leave an iteration that threads share.
+  class Withheld {
+   public:
+    Withheld() : flag_(of_thread()) { of_thread() = nullptr; }
+    ~Withheld() { of_thread() = flag_; }
+    Withheld(const Withheld&) = delete;
+    Withheld& operator=(const Withheld&) = delete;
+
+   private:
+    const std::atomic<bool>* flag_;
+  };
+
  private:
   friend class CancelScope;
   static const std::atomic<bool>*& of_thread() {
