@@ -31,8 +31,8 @@ class PlaneSweeps {
  private:
   /// Planes of one thread.
   struct Own {
-    Buffer<float> coefficients;                              ///< see OperatorRows
-    Buffer<float> zero, x[3], black[3], r[3], halo[4], row;  ///< `black`: x after the black half sweep
+    Buffer<float> coefficients;                                     ///< see OperatorRows
+    Buffer<float> zero, x[3], black[3], r[3], halo[4], row, saved;  ///< `black`: x after the black half sweep
   };
   std::vector<Own> own_;
 };
