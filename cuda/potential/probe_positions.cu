@@ -16,6 +16,8 @@ ESPDIFF_INLINE float squared_distance(const AtomCellsView& cells, std::uint32_t 
   return dx * dx + dy * dy + dz * dz;
 }
 
+#if defined(ESPDIFF_BACKEND_CUDA)
+
 /// The atom whose neighbour list has the entry.
 ESPDIFF_INLINE std::uint32_t owner_of(const std::uint32_t* first, std::uint32_t n_atoms, std::uint32_t entry) {
   std::uint32_t low = 0, high = n_atoms;
@@ -29,8 +31,6 @@ ESPDIFF_INLINE std::uint32_t owner_of(const std::uint32_t* first, std::uint32_t 
   }
   return low;
 }
-
-#if defined(ESPDIFF_BACKEND_CUDA)
 
 /// Sorts each atom's list, nearest first; neighbours at the same distance keep their order. A thread for each entry
 /// counts those before it.
@@ -202,51 +202,38 @@ ESPDIFF_INLINE std::uint32_t points_of(float angle, float radius) {
   return static_cast<std::uint32_t>(angle * radius / kArcSpacing_A) + 2U;
 }
 
-/// The place of atom b in a's list, which is sorted by distance.
-ESPDIFF_INLINE std::uint32_t entry_of(const AtomCellsView& cells, const ProbeAtomsView& view, std::uint32_t a,
-                                      std::uint32_t b) {
-  const float square = squared_distance(cells, a, b);
-  std::uint32_t low = view.first[a], high = view.first[a + 1];
-  while (low < high) {
-    const std::uint32_t middle = low + (high - low) / 2;
-    if (squared_distance(cells, a, view.neighbour[middle]) < square) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  while (view.neighbour[low] != b) ++low;
-  return low;
+/// Calls of_entry(atom, entry) for the entries of all atoms' neighbour lists.
+template <typename OfEntry>
+void for_each_neighbour(const ProbeAtoms& atoms, const OfEntry& of_entry) {
+  const std::uint32_t* const first = raw(atoms.first);
+  const std::uint32_t n_atoms = static_cast<std::uint32_t>(atoms.radius.size());
+#if defined(ESPDIFF_BACKEND_CUDA)
+  for_each_index(atoms.neighbour.size(), [=] ESPDIFF_HD(std::size_t index) {
+    const std::uint32_t entry = static_cast<std::uint32_t>(index);
+    of_entry(owner_of(first, n_atoms, entry), entry);
+  });
+#else
+  for_each_index(n_atoms, [=](std::size_t a) {
+    for (std::uint32_t entry = first[a]; entry < first[a + 1]; ++entry) of_entry(static_cast<std::uint32_t>(a), entry);
+  });
+#endif
 }
 
 /// An atom is exposed if one of its circles is, or if all its neighbours lie inside it.
-/// @param first_point [neighbour entry + 1] of the points on the entry's circle
-void find_exposed(ProbeAtoms& atoms, const Buffer<std::uint32_t>& first_point) {
+/// @param n_circles [atom] those of its circles that are exposed
+void find_exposed(ProbeAtoms& atoms, const Buffer<std::uint32_t>& n_circles) {
   const ProbeAtomsView view = view_of(atoms);
-  const AtomCellsView cells = view.cells;
-  const std::uint32_t* const first = raw(first_point);
-  const std::uint32_t n_atoms = static_cast<std::uint32_t>(atoms.radius.size());
-  constexpr std::uint8_t kHasPoints = 1, kLiesInside = 2;
-  Buffer<std::uint8_t> entries(atoms.neighbour.size());
-  std::uint8_t* const of_entry = raw(entries);
-  for_each_index(entries.size(), [=] ESPDIFF_HD(std::size_t index) {
-    const std::uint32_t entry = static_cast<std::uint32_t>(index), a = owner_of(view.first, n_atoms, entry),
-                        b = view.neighbour[entry];
-    const Vec3f way = view.centre(b) - view.centre(a);
-    // The atom of the lower index owns the circle.
-    const std::uint32_t at = b < a ? entry_of(cells, view, b, a) : entry;
-    const bool has_points = first[at + 1] > first[at],
-               lies_inside = !(sqrtf(dot(way, way)) + view.radius[b] > view.radius[a]);
-    of_entry[entry] = static_cast<std::uint8_t>((has_points ? kHasPoints : 0) | (lies_inside ? kLiesInside : 0));
-  });
+  const std::uint32_t* const circles = raw(n_circles);
   std::uint8_t* const exposed = raw(atoms.exposed);
-  for_each_index(n_atoms, [=] ESPDIFF_HD(std::size_t a) {
-    bool has_points = false, holds_all = true;
-    for (std::uint32_t entry = view.first[a]; entry < view.first[a + 1] && !has_points; ++entry) {
-      has_points = (of_entry[entry] & kHasPoints) != 0;
-      holds_all = holds_all && (of_entry[entry] & kLiesInside) != 0;
+  for_each_index(n_circles.size(), [=] ESPDIFF_HD(std::size_t index) {
+    const std::uint32_t a = static_cast<std::uint32_t>(index);
+    bool holds_all = true;
+    for (std::uint32_t entry = view.first[a]; entry < view.first[a + 1] && holds_all; ++entry) {
+      const std::uint32_t b = view.neighbour[entry];
+      const Vec3f way = view.centre(b) - view.centre(a);
+      holds_all = !(sqrtf(dot(way, way)) + view.radius[b] > view.radius[a]);
     }
-    exposed[a] = has_points || holds_all ? 1 : 0;
+    exposed[a] = circles[a] > 0 || holds_all ? 1 : 0;
   });
 }
 
@@ -279,8 +266,9 @@ Buffer<Vec4f> find_probe_positions(ProbeAtoms& atoms) {
   const std::size_t n_entries = atoms.neighbour.size();
   Buffer<std::uint32_t> first_point(n_entries + 1, 0);
   std::uint32_t* const count = raw(first_point);
-  for_each_index(n_entries, [=] ESPDIFF_HD(std::size_t entry) {
-    const std::uint32_t a = owner_of(view.first, n_atoms, static_cast<std::uint32_t>(entry));
+  Buffer<std::uint32_t> n_circles(n_atoms, 0);
+  std::uint32_t* const circles = raw(n_circles);
+  for_each_neighbour(atoms, [=] ESPDIFF_HD(std::uint32_t a, std::uint32_t entry) {
     const std::uint32_t b = view.neighbour[entry];
     if (b < a) return;
     const Circle circle = circle_between(view, a, b);
@@ -289,15 +277,17 @@ Buffer<Vec4f> find_probe_positions(ProbeAtoms& atoms) {
     std::uint32_t n = 0;
     for (int i = 0; i < arcs.n; ++i) n += points_of(arcs.end[i] - arcs.begin[i], circle.radius);
     count[entry] = n;
+    if (n == 0) return;
+    atomic_increment(circles + a);
+    atomic_increment(circles + b);
   });
   const std::uint32_t n_points = exclusive_scan_in_place(first_point);
-  find_exposed(atoms, first_point);
+  find_exposed(atoms, n_circles);
   Buffer<Vec4f> probes(n_points);
   Vec4f* const points = raw(probes);
-  for_each_index(n_entries, [=] ESPDIFF_HD(std::size_t entry) {
+  for_each_neighbour(atoms, [=] ESPDIFF_HD(std::uint32_t a, std::uint32_t entry) {
     std::uint32_t at = count[entry];
     if (count[entry + 1] == at) return;
-    const std::uint32_t a = owner_of(view.first, n_atoms, static_cast<std::uint32_t>(entry));
     const Circle circle = circle_between(view, a, view.neighbour[entry]);
     const Arcs arcs = exposed_arcs(view, a, view.neighbour[entry], circle);
     for (int i = 0; i < arcs.n; ++i) {

@@ -63,8 +63,9 @@ class Threads {
   int before_;
 };
 
-// The last three are run by several threads; the second and the last have axes that are no multiple of two plus one.
-const GridSize kSizes[] = {{9, 9, 9}, {12, 10, 9}, {33, 25, 41}, {25, 33, 65}, {30, 26, 44}};
+// The last four are run by several threads; the second and the last two have axes that are no multiple of two plus one.
+// Planes of the last one are swept in three strips.
+const GridSize kSizes[] = {{9, 9, 9}, {12, 10, 9}, {33, 25, 41}, {25, 33, 65}, {30, 26, 44}, {260, 401, 20}};
 
 }  // namespace
 

@@ -52,6 +52,46 @@ FacesOf faces_of(const GridOperator& a) { return {raw(a.ex), raw(a.ey), raw(a.ez
 ESPDIFF_INLINE float coarse_k(float diagonal, float faces) { return 4.0F * larger(diagonal - faces, 0.0F); }
 
 #if !defined(ESPDIFF_BACKEND_CUDA)
+/// coarse_face() where all nine lines beside are inside: the same sum.
+/// @param fine the finer face at the coarse one's point
+/// @param along, side, other steps to the next point along the face's axis and the two that follow it
+ESPDIFF_INLINE float inner_face(const float* fine, std::ptrdiff_t along, std::ptrdiff_t side, std::ptrdiff_t other) {
+  float sum = 0;
+  for (std::ptrdiff_t u = -1; u <= 1; ++u) {
+    for (std::ptrdiff_t v = -1; v <= 1; ++v) {
+      const float* const at = fine + u * side + v * other;
+      sum += (u == 0 ? 2.0F : 1.0F) * (v == 0 ? 2.0F : 1.0F) * in_series(at[0], at[along]);
+    }
+  }
+  return sum / 16.0F;
+}
+
+/// Coarse faces of the points 1 to n of a row. @param fine the finer row's first point
+ESPDIFF_MULTIVERSION void inner_faces(const float* fine, std::ptrdiff_t along, std::ptrdiff_t side,
+                                      std::ptrdiff_t other, int n, float* coarse) {
+#pragma GCC ivdep
+  for (int i = 1; i <= n; ++i) coarse[i] = inner_face(fine + 2 * std::ptrdiff_t{i}, along, side, other);
+}
+
+/// The coarse faces along an axis, row by row.
+void coarsen_faces(const Buffer<float>& of_fine, const GridSize& f, const GridSize& c, int axis, Buffer<float>& faces) {
+  const float* const fine = raw(of_fine);
+  float* const coarse = raw(faces);
+  const std::ptrdiff_t steps[3] = {1, static_cast<std::ptrdiff_t>(f.row()), static_cast<std::ptrdiff_t>(f.plane())};
+  const std::ptrdiff_t along = steps[axis], side = steps[(axis + 1) % 3], other = steps[(axis + 2) % 3];
+  const auto is_inner = [](int i, int n) { return i > 0 && 2 * i + 1 < n - 1; };
+  const int n_inner = std::max(0, (f.nx - 1) / 2 - 1);  // inner points of a row, from the first
+  for_each_index(static_cast<std::size_t>(c.ny) * static_cast<std::size_t>(c.nz), [=](std::size_t r) {
+    const int j = static_cast<int>(r % static_cast<std::size_t>(c.ny)),
+              k = static_cast<int>(r / static_cast<std::size_t>(c.ny));
+    float* const row = coarse + c.index(0, j, k);
+    const int n = is_inner(j, f.ny) && is_inner(k, f.nz) ? n_inner : 0;
+    if (n > 0) inner_faces(fine + f.index(0, 2 * j, 2 * k), along, side, other, n, row);
+    row[0] = coarse_face(fine, f, axis, 0, j, k);
+    for (int i = n + 1; i < c.nx; ++i) row[i] = coarse_face(fine, f, axis, i, j, k);
+  });
+}
+
 /// The coarse k from the fine grid's packed k.
 void coarsen_packed_k(const GridOperator& fine, GridOperator& coarse) {
   const GridSize f = fine.size, c = coarse.size;
@@ -148,29 +188,40 @@ void coarsen(const GridOperator& fine, GridOperator& coarse) {
   const GridSize c{coarser(f.nx), coarser(f.ny), coarser(f.nz)};
   coarse.size = c;
   for (Buffer<float>* buffer : {&coarse.ex, &coarse.ey, &coarse.ez, &coarse.diagonal}) buffer->resize(c.points());
+  const float* const of_points = fine.packed == nullptr ? raw(fine.diagonal) : nullptr;
+#if defined(ESPDIFF_BACKEND_CUDA)
   const float* const fx = raw(fine.ex);
   const float* const fy = raw(fine.ey);
   const float* const fz = raw(fine.ez);
   float* const ex = raw(coarse.ex);
   float* const ey = raw(coarse.ey);
   float* const ez = raw(coarse.ez);
-  float* const diagonal = raw(coarse.diagonal);
-  const float* const of_points = fine.packed == nullptr ? raw(fine.diagonal) : nullptr;
-  const FacesOf faces_at = faces_of(fine);
   for_each_index(c.points(), [=] ESPDIFF_HD(std::size_t p) {
     const int i = static_cast<int>(p % c.row()), j = static_cast<int>(p / c.row() % static_cast<std::size_t>(c.ny)),
               k = static_cast<int>(p / c.plane());
     ex[p] = coarse_face(fx, f, 0, i, j, k);
     ey[p] = coarse_face(fy, f, 1, i, j, k);
     ez[p] = coarse_face(fz, f, 2, i, j, k);
-    if (of_points == nullptr) return;
+  });
+#else
+  coarsen_faces(fine.ex, f, c, 0, coarse.ex);
+  coarsen_faces(fine.ey, f, c, 1, coarse.ey);
+  coarsen_faces(fine.ez, f, c, 2, coarse.ez);
+  if (of_points == nullptr) {
+    coarsen_packed_k(fine, coarse);
+    add_faces_to_diagonal(coarse);
+    return;
+  }
+#endif
+  const FacesOf faces_at = faces_of(fine);
+  float* const diagonal = raw(coarse.diagonal);
+  for_each_index(c.points(), [=] ESPDIFF_HD(std::size_t p) {
+    const int i = static_cast<int>(p % c.row()), j = static_cast<int>(p / c.row() % static_cast<std::size_t>(c.ny)),
+              k = static_cast<int>(p / c.plane());
     const std::size_t q = f.index(2 * i, 2 * j, 2 * k);
     const bool is_inner = i > 0 && j > 0 && k > 0 && 2 * i < f.nx - 1 && 2 * j < f.ny - 1 && 2 * k < f.nz - 1;
     diagonal[p] = is_inner ? coarse_k(of_points[q], faces_at(q)) : 0.0F;
   });
-#if !defined(ESPDIFF_BACKEND_CUDA)
-  if (of_points == nullptr) coarsen_packed_k(fine, coarse);
-#endif
   add_faces_to_diagonal(coarse);
 }
 

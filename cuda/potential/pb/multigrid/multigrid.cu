@@ -243,7 +243,8 @@ void Multigrid::pack_coarse_faces(std::size_t fewest_points) {
   UsualCoefficients usual = finest_.packed->view().usual;
   for (Level& level : levels_) {
     GridOperator& a = level.on_grid;
-    if (a.size.points() < fewest_points) return;
+    // The coarsest grid is swept from its arrays.
+    if (a.size.points() < fewest_points || &level == &levels_.back()) return;
     usual.solute = coarse_face_of_equal(usual.solute);
     usual.solvent = coarse_face_of_equal(usual.solvent);
     constexpr std::size_t kPointsPerListed = 2;  // four bytes a point, where arrays take twelve

@@ -36,8 +36,8 @@ ESPDIFF_MULTIVERSION void diagonal_of(const std::uint8_t* codes, float ions, con
 
 }  // namespace
 
-OperatorRows::OperatorRows(const GridOperator& of, Buffer<float>& storage, PlainRows plain)
-    : of_(of), storage_(storage), codes_(of.size.row()) {
+OperatorRows::OperatorRows(const GridOperator& of, Buffer<float>& storage, PlainRows plain, RowRange rows)
+    : of_(of), storage_(storage), rows_(rows), codes_(of.size.row()) {
   if (of.packed != nullptr && plain == PlainRows::kLeftOut) {
     const PackedView packed = of.packed->view();
     plain_ = packed.plain;
@@ -101,7 +101,8 @@ void OperatorRows::unpack_faces(int k) {
   const PackedView packed = of_.packed->view();
   const std::size_t n = of_.size.row(), ny = static_cast<std::size_t>(of_.size.ny);
   float* const faces[3] = {unpacked(kX, k), unpacked(kY, k), unpacked(kZ, k)};
-  for (std::size_t j = 0; j < ny; ++j) {
+  // The first row's points have faces of the row before.
+  for (std::size_t j = static_cast<std::size_t>(rows_.first - 1); j < static_cast<std::size_t>(rows_.last); ++j) {
     const std::size_t row = j + ny * static_cast<std::size_t>(k), first = n * j;
     // Faces belong to the next rows' points as well.
     if (plain_of(row) != kNotPlain && plain_of(row + 1) != kNotPlain && plain_of(row + ny) != kNotPlain) continue;
@@ -117,7 +118,7 @@ void OperatorRows::unpack_faces(int k) {
 void OperatorRows::unpack_diagonal(int k) {
   const float ions = of_.packed->view().usual.ions;
   const std::size_t n = of_.size.row(), ny = static_cast<std::size_t>(of_.size.ny);
-  for (std::size_t j = 1; j < ny - 1; ++j) {
+  for (std::size_t j = static_cast<std::size_t>(rows_.first); j < static_cast<std::size_t>(rows_.last); ++j) {
     const std::size_t row = j + ny * static_cast<std::size_t>(k);
     if (plain_of(row) == kNotPlain)
       diagonal_of(codes_of(row), ions, at(static_cast<int>(j), k), n, unpacked(kDiagonal, k) + n * j);

@@ -23,6 +23,12 @@ struct OperatorRow {
   float plain;            ///< the dielectric of all faces of a plain row, whose other arrays are null; otherwise 0
 };
 
+/// Rows [first, last) of a plane, all of them inner ones.
+struct RowRange {
+  int first, last;
+};
+inline RowRange inner_rows(const GridSize& size) { return {1, size.ny - 1}; }
+
 /// Whether rows that are plain are unpacked as well.
 enum class PlainRows { kUnpacked, kLeftOut };
 
@@ -31,10 +37,13 @@ class OperatorRows {
  public:
   /// @param of must outlive this object
   /// @param storage for unpacked planes; kept for the next one, so that each pass need not allocate
-  OperatorRows(const GridOperator& of, Buffer<float>& storage, PlainRows plain);
+  OperatorRows(const GridOperator& of, Buffer<float>& storage, PlainRows plain)
+      : OperatorRows(of, storage, plain, inner_rows(of.size)) {}
+  /// Of some of each plane's rows alone.
+  OperatorRows(const GridOperator& of, Buffer<float>& storage, PlainRows plain, RowRange rows);
   /// Makes the rows of an inner plane and of the three before it available.
   void hold(int k);
-  /// An inner row of a plane that is held.
+  /// One of the rows, of a plane that is held.
   OperatorRow at(int j, int k) const;
 
  private:
@@ -50,6 +59,7 @@ class OperatorRows {
 
   const GridOperator& of_;
   Buffer<float>& storage_;
+  RowRange rows_;
   const std::uint8_t* plain_ = nullptr;   ///< [row] that are left out; null for none
   std::vector<float> plain_diagonal_[2];  ///< [point] of a row without ions and with them
   std::vector<std::uint8_t> codes_;       ///< [point] of one row

@@ -134,33 +134,34 @@ ESPDIFF_MULTIVERSION void subtract_row_of_two(const OperatorRow& a, std::size_t 
   subtract_row<true>(a, nx, plane, x, low, r);
 }
 
-/// Calls of_row(coefficients, first point, parity of the first point) for the inner rows of plane k.
+/// Calls of_row(coefficients, first point, parity of the first point) for rows of plane k.
 template <typename OfRow>
-void for_rows(OperatorRows& a, const GridSize& size, int k, const OfRow& of_row) {
+void for_rows(OperatorRows& a, const GridSize& size, int k, RowRange rows, const OfRow& of_row) {
   a.hold(k);
-  for (int j = 1; j < size.ny - 1; ++j) of_row(a.at(j, k), size.row() * static_cast<std::size_t>(j), j + k);
+  for (int j = rows.first; j < rows.last; ++j) of_row(a.at(j, k), size.row() * static_cast<std::size_t>(j), j + k);
 }
 
 }  // namespace
 
-void start_plane(OperatorRows& a, const GridSize& size, int k, const float* b, float* x) {
-  for_rows(a, size, k, [&](const OperatorRow& row, std::size_t first, int parity) {
+void start_plane(OperatorRows& a, const GridSize& size, int k, RowRange rows, const float* b, float* x) {
+  for_rows(a, size, k, rows, [&](const OperatorRow& row, std::size_t first, int parity) {
     start_row(row.diagonal, size.row(), parity, b + first, x + first);
   });
 }
-void sweep_plane(OperatorRows& a, const GridSize& size, int k, int colour, const float* b, const Planes& x,
-                 float* out) {
-  for_rows(a, size, k, [&](const OperatorRow& row, std::size_t first, int parity) {
+void sweep_plane(OperatorRows& a, const GridSize& size, int k, RowRange rows, int colour, const float* b,
+                 const Planes& x, float* out) {
+  for_rows(a, size, k, rows, [&](const OperatorRow& row, std::size_t first, int parity) {
     sweep_row(row, size.row(), parity, colour, b + first, x.row(first), out + first);
   });
 }
-void residual_plane(OperatorRows& a, const GridSize& size, int k, const Planes& x, float* r) {
-  for_rows(a, size, k, [&](const OperatorRow& row, std::size_t first, int parity) {
+void residual_plane(OperatorRows& a, const GridSize& size, int k, RowRange rows, const Planes& x, float* r) {
+  for_rows(a, size, k, rows, [&](const OperatorRow& row, std::size_t first, int parity) {
     residual_row(row, size.row(), parity, x.row(first), r + first);
   });
 }
-void apply_plane(OperatorRows& a, const GridSize& size, int k, Products products, const Planes& x, float* y) {
-  for_rows(a, size, k, [&](const OperatorRow& row, std::size_t first, int) {
+void apply_plane(OperatorRows& a, const GridSize& size, int k, RowRange rows, Products products, const Planes& x,
+                 float* y) {
+  for_rows(a, size, k, rows, [&](const OperatorRow& row, std::size_t first, int) {
     if (products == Products::kExact)
       apply_row_exactly(row, size.row(), x.row(first), y + first);
     else
@@ -169,7 +170,7 @@ void apply_plane(OperatorRows& a, const GridSize& size, int k, Products products
 }
 
 void subtract_exactly_plane(OperatorRows& a, const GridSize& size, int k, const float* x, const float* low, float* r) {
-  for_rows(a, size, k, [&](const OperatorRow& row, std::size_t first, int) {
+  for_rows(a, size, k, inner_rows(size), [&](const OperatorRow& row, std::size_t first, int) {
     if (low == nullptr)
       subtract_row_of_one(row, size.row(), size.plane(), x + first, r + first);
     else
@@ -177,11 +178,11 @@ void subtract_exactly_plane(OperatorRows& a, const GridSize& size, int k, const 
   });
 }
 
-ESPDIFF_MULTIVERSION void restrict_plane(const GridSize& fine, const Planes& r, const GridSize& coarse, float* line,
-                                         float* b) {
+ESPDIFF_MULTIVERSION void restrict_plane(const GridSize& fine, const Planes& r, const GridSize& coarse, RowRange rows,
+                                         float* line, float* b) {
   const std::size_t row = fine.row();
   const int nx = fine.nx;
-  for (int j = 1; j < coarse.ny - 1; ++j) {
+  for (int j = rows.first; j < rows.last; ++j) {
     const float* const low = r.below + row * static_cast<std::size_t>(2 * j);
     const float* const mid = r.here + row * static_cast<std::size_t>(2 * j);
     const float* const high = r.above + row * static_cast<std::size_t>(2 * j);
@@ -194,9 +195,10 @@ ESPDIFF_MULTIVERSION void restrict_plane(const GridSize& fine, const Planes& r, 
 }
 
 ESPDIFF_MULTIVERSION void interpolate_plane(const GridSize& coarse, const float* below, const float* above,
-                                            const GridSize& fine, const float* x, float* line, float* out) {
+                                            const GridSize& fine, RowRange rows, const float* x, float* line,
+                                            float* out) {
   const std::size_t row = coarse.row();
-  for (int j = 1; j < fine.ny - 1; ++j) {
+  for (int j = rows.first; j < rows.last; ++j) {
     const float* const a = below + row * static_cast<std::size_t>(j / 2);
     const float* const b = below + row * static_cast<std::size_t>((j + 1) / 2);
     const float* const c = above + row * static_cast<std::size_t>(j / 2);
@@ -222,15 +224,23 @@ ESPDIFF_MULTIVERSION void turn_plane(float beta, const float* z, const float* fr
   for (std::size_t i = 0; i < n; ++i) p[i] = z[i] + beta * from[i];
 }
 
-ESPDIFF_MULTIVERSION double dot_run(const float* a, const float* b, std::size_t n) {
-  LaneSums sums;
-  std::size_t i = 0;
-  for (; i + LaneSums::kLanes <= n; i += LaneSums::kLanes) {
-    for (std::size_t lane = 0; lane < LaneSums::kLanes; ++lane)
-      sums.sum[lane] += static_cast<double>(a[i + lane]) * static_cast<double>(b[i + lane]);
+ESPDIFF_MULTIVERSION void add_products(const float* a, const float* b, std::size_t first, std::size_t last,
+                                       LaneSums& sums) {
+  constexpr std::size_t kLanes = LaneSums::kLanes;
+  LaneSums own = sums;
+  std::size_t i = first;
+  for (; i < last && i % kLanes != 0; ++i) own.sum[i % kLanes] += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  for (; i + kLanes <= last; i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      own.sum[lane] += static_cast<double>(a[i + lane]) * static_cast<double>(b[i + lane]);
   }
-  for (std::size_t lane = 0; i < n; ++i, ++lane)
-    sums.sum[lane] += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  for (; i < last; ++i) own.sum[i % kLanes] += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  sums = own;
+}
+
+double dot_run(const float* a, const float* b, std::size_t n) {
+  LaneSums sums;
+  add_products(a, b, 0, n, sums);
   return sums.total();
 }
 

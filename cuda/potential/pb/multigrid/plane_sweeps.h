@@ -2,8 +2,9 @@
 //
 // A step alone reads the operator's four arrays from memory, which takes longer than its arithmetic. In a pass, the
 // next step follows a plane or two behind, while these planes are in the cache. Threads have ranges of planes; what a
-// thread needs of its neighbours' planes it computes again, in buffers of its own. So the bits are those of the single
-// steps (Multigrid::precondition_by_points), at any number of threads.
+// thread needs of its neighbours' planes it computes again, in buffers of its own. Large planes do not fit into the
+// cache: they are swept in strips of rows, each strip through all of a thread's planes, with the same repetition at its
+// edges. So the bits are those of the single steps (Multigrid::precondition_by_points), at any number of threads.
 #pragma once
 
 #if !defined(ESPDIFF_BACKEND_CUDA)
@@ -31,8 +32,8 @@ class PlaneSweeps {
  private:
   /// Planes of one thread.
   struct Own {
-    Buffer<float> coefficients;                              ///< see OperatorRows
-    Buffer<float> zero, x[3], black[3], r[3], halo[4], row;  ///< `black`: x after the black half sweep
+    Buffer<float> coefficients;                                     ///< see OperatorRows
+    Buffer<float> zero, x[3], black[3], r[3], halo[4], row, saved;  ///< `black`: x after the black half sweep
   };
   std::vector<Own> own_;
 };
