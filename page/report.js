@@ -239,6 +239,7 @@
       if (!panel.label) return;
       const label = add(holder, 'div', panel.label + ', \u00b1' + shown(ranges[panel.index]) + ' ' + record.quantities[panel.index].unit, 'label');
       label.style.left = (100 * i / list.length + 1) + '%';
+      label.style.maxWidth = (100 / list.length - 2) + '%';  // a narrow one has two lines
     });
     const index = list[list.length - 1].index, quantity = record.quantities[index], range = ranges[index], scale = scaleOf(quantity);
     byId('range').value = shown(range);

@@ -11,8 +11,10 @@
 #include "base/formatted.h"
 #include "base/text/printable.h"
 #include "base/version.h"
+#include "io/files/read_csv.h"
 #include "io/structures/run_record.h"
 #include "plot/automatic_range.h"
+#include "plot/shared_range.h"
 
 namespace espdiff {
 namespace {
@@ -37,14 +39,39 @@ const typename Items::value_type& chosen(const Items& items, const std::string& 
 
 double limit_of(const std::vector<double>& values) { return automatic_limit({values.begin(), values.end()}); }
 
+/// The widest automatic limit of this surface's array and of those of the other comparisons.
+double shared_limit_of(const std::string& array, const std::string& prefix, const std::vector<std::string>& others) {
+  std::vector<std::string> surfaces = {prefix + ".vtp"};
+  for (const std::string& other : others) surfaces.push_back(other + ".vtp");
+  return shared_limits(surfaces).at(array);
+}
+
+/// The same of a column of residues.
+double shared_residue_limit(double own, const std::string& column, const std::vector<std::string>& others) {
+  double limit = own;
+  for (const std::string& other : others) {
+    const CsvTable table = read_csv(other + ".residues.csv");
+    const std::vector<ResidueColumn> columns = residue_columns(table);
+    const auto found =
+        std::find_if(columns.begin(), columns.end(), [&](const ResidueColumn& c) { return c.name == column; });
+    if (found == columns.end()) throw InputError(table.path + ": no column '" + column + "' to share a scale with");
+    std::vector<double> values;
+    for (std::size_t r = 0; r < table.rows.size(); ++r) values.push_back(table.number(r, found->index));
+    limit = std::max(limit, limit_of(values));
+  }
+  return limit;
+}
+
 void choose_surface_values(ExportedResult& result, const ExportOptions& options) {
   const SurfaceQuantity quantity =
       chosen(surface_quantities(result.files), options.array, {"potential_difference", "displacement"},
              result.files.prefix + ".vtp has no point array", [](const SurfaceQuantity& q) { return q.values->name; });
   result.values = quantity.values->values;
-  result.scale = {quantity.values->name, quantity.label,
-                  quantity.unit,         options.limit > 0 ? options.limit : limit_of(result.values),
-                  quantity.is_signed,    options.colours};
+  const double limit = options.limit > 0 ? options.limit
+                       : !options.range_of.empty()
+                           ? shared_limit_of(quantity.values->name, result.files.prefix, options.range_of)
+                           : limit_of(result.values);
+  result.scale = {quantity.values->name, quantity.label, quantity.unit, limit, quantity.is_signed, options.colours};
   for (const double value : result.values) result.colours.push_back(result.scale.colour(value));
 }
 
@@ -56,8 +83,8 @@ void choose_residue_values(ExportedResult& result, const ExportOptions& options)
   for (std::size_t r = 0; r < table.rows.size(); ++r) result.residue_values.push_back(table.number(r, column.index));
   const bool is_signed =
       std::any_of(result.residue_values.begin(), result.residue_values.end(), [](double value) { return value < 0; });
-  result.residue_scale = {column.name, column.label,   column.unit, limit_of(result.residue_values),
-                          is_signed,   options.colours};
+  const double limit = shared_residue_limit(limit_of(result.residue_values), column.name, options.range_of);
+  result.residue_scale = {column.name, column.label, column.unit, limit, is_signed, options.colours};
 }
 
 std::string described(const ExportScale& scale) {
@@ -95,6 +122,9 @@ ExportedResult read_exported_result(const std::string& prefix, const ExportOptio
   if (!(options.limit >= 0) || !std::isfinite(options.limit))
     throw InputError(option("range", formatted(options.limit)) +
                      ": give a positive number, or 0 for an automatic scale");
+  if (options.limit > 0 && !options.range_of.empty())
+    throw InputError(option("range-of") + " and " + option("range") +
+                     " exclude each other: one of them sets the scale");
   ExportedResult result;
   result.files = read_pair_files(prefix);
   result.title = printable(options.title.empty() ? title_of(result.files) : options.title);

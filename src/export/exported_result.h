@@ -15,6 +15,8 @@ struct ExportOptions {
   std::string array;     ///< point array to colour by; empty: the difference, or the displacement
   std::string residues;  ///< column of OUT.residues.csv; empty: the mean absolute difference, or displacement
   double limit = 0;      ///< end of the colour scale of the surface; 0: automatic (automatic_limit())
+  /// Prefixes of other comparisons, whose automatic limits of surface and residues count too: the widest are taken.
+  std::vector<std::string> range_of;
   std::string colours = "red-blue";  ///< diverging_map()'s names
   std::string title;                 ///< empty: the names of both structures
   bool overwrite = true;             ///< whether files of these names may be replaced
@@ -48,7 +50,8 @@ struct ExportedResult {
 
 /// @param prefix OUT
 /// @throws as read_pair_files(); InputError (an array or column that the result lacks, with those there are; a colour
-///         map of another name; a limit that is not positive)
+///         map of another name; a limit that is not positive, or one beside range_of; one of range_of has another unit,
+///         or lacks the column)
 ExportedResult read_exported_result(const std::string& prefix, const ExportOptions& options);
 
 /// The source in the target's frame, as it was compared, with the residues' values on its atoms; NaN where a residue

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/citation.h"
 #include "io/files/write_csv.h"
 #include "page/page_surface.h"
 
@@ -297,7 +298,7 @@ TableJson ensemble_provenance(const TableJson& record) {
   }
   rows.push_back({"Settings", settings});
   rows.push_back({"Statistics", record.at("options").dump()});
-  rows.push_back({"How to cite", "espdiff, version " + version + "; CITATION.cff of the program names the work"});
+  rows.push_back({"How to cite", citation_of(version)});
   return rows;
 }
 

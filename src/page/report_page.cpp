@@ -187,11 +187,7 @@ void add_surface(Json& page, PageArrays& arrays, const PairFiles& files) {
     page["linked"].push_back(Json::array({std::string("potential_") + label, label}));
 }
 
-}  // namespace
-
-std::string report_page(const std::string& prefix, const std::string& title, const std::vector<std::string>& range_of) {
-  require_three();
-  const PairFiles files = read_pair_files(prefix);
+Json page_of(const PairFiles& files, const std::string& title, PageArrays& arrays) {
   const Verdict verdict = verdict_of(files);
   Json page = {{"title", title.empty() ? title_of(files) : title},
                {"states", "Source: " + name_of_input(files, "source") + ". Target: " + name_of_input(files, "target") +
@@ -205,9 +201,22 @@ std::string report_page(const std::string& prefix, const std::string& title, con
   page["tables"] = cause_tables(files.record);
   page["residues"] = residues_of(files.residues);
   page["provenance"] = provenance_of(files);
-  PageArrays arrays;
   add_surface(page, arrays, files);
-  add_backbones(page, arrays, prefix);
+  add_backbones(page, arrays, files.prefix);
+  return page;
+}
+
+}  // namespace
+
+std::string report_page(const std::string& prefix, const std::string& title, const std::vector<std::string>& range_of) {
+  require_three();
+  PageArrays arrays;
+  Json page;
+  try {
+    page = page_of(read_pair_files(prefix), title, arrays);
+  } catch (const Json::exception&) {
+    throw FormatError(prefix + ".json", 0, "a part of it is not as `espdiff compare` writes it; compare again");
+  }
   share_page_ranges(page, prefix, range_of);
   return assembled_page(page, arrays, "report.html", surface_page_scripts(), surface_page_library());
 }

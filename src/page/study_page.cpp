@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "base/citation.h"
 #include "base/error.h"
 #include "io/files/read_csv.h"
 #include "io/files/read_input.h"
@@ -78,7 +79,10 @@ void add_remarks(StudyJson& page, const CsvTable& table, const std::vector<std::
     if (!trustworthy.empty()) trust[places[row]] = trustworthy != "0";
     for (const char* column : {"error", "reasons", "warnings"}) {
       const std::string text = cell(table, row, column);
-      if (!text.empty()) remarks[std::to_string(places[row])].push_back(text);
+      if (text.empty()) continue;
+      StudyJson& said = remarks[std::to_string(places[row])];
+      // A warning that refuses a frame is its reason, too.
+      if (std::find(said.begin(), said.end(), text) == said.end()) said.push_back(text);
     }
   }
   page["trust"] = std::move(trust);
@@ -151,6 +155,7 @@ void add_matrix(StudyJson& page, PageArrays& arrays, const std::string& prefix) 
   const StudyJson program = {"Program", "espdiff " + record.value("version", "")};
   provenance.insert(provenance.begin(), program);
   provenance.push_back({"Options", options_of(record)});
+  provenance.push_back({"How to cite", citation_of(record.value("version", ""))});
   page["provenance"] = std::move(provenance);
   page["states"] = std::to_string(n) + " variants; each row is a source, each column a target";
 }
@@ -192,6 +197,40 @@ StudyJson residue_rows(PageArrays& arrays, const std::string& path, const std::v
   return json;
 }
 
+/// The lines "name: text" above a trajectory's rows, in words; an empty text is left out, of options it means defaults.
+StudyJson trajectory_provenance(const std::vector<std::string>& head) {
+  static const std::map<std::string, std::string> words = {{"espdiff", "Program"},
+                                                           {"file", "Frames from"},
+                                                           {"file_sha256", "SHA-256 of the frames"},
+                                                           {"atoms", "Atoms"},
+                                                           {"frames", "Frames"},
+                                                           {"reference", "Source"},
+                                                           {"source_sha256", "SHA-256 of the source"},
+                                                           {"map", "Potential"},
+                                                           {"reference-map", "Map of the source"},
+                                                           {"source_map_sha256", "SHA-256 of the source's potential"},
+                                                           {"start", "Mappings start from"},
+                                                           {"settings", "Options"}};
+  StudyJson rows = StudyJson::array();
+  std::string version;
+  for (const std::string& line : head) {
+    const std::size_t begin = line.find_first_not_of(' '), colon = line.find(':');
+    if (begin == std::string::npos || colon == std::string::npos) continue;
+    const std::string name = line.substr(begin, colon - begin);
+    const std::size_t from = line.find_first_not_of(' ', colon + 1);
+    std::string text = from == std::string::npos ? "" : line.substr(from);
+    if (name == "espdiff") {
+      version = text;
+      text = "espdiff " + text;
+    }
+    if (name == "settings") text = text.empty() ? "all have their defaults" : text + "; all others have their defaults";
+    const auto found = words.find(name);
+    if (!text.empty()) rows.push_back({found == words.end() ? name : found->second, text});
+  }
+  if (!version.empty()) rows.push_back({"How to cite", citation_of(version)});
+  return rows;
+}
+
 void add_trajectory(StudyJson& page, PageArrays& arrays, const std::string& prefix) {
   const CsvTable table = read_csv(prefix + ".csv");
   require_rows(table);
@@ -207,14 +246,7 @@ void add_trajectory(StudyJson& page, PageArrays& arrays, const std::string& pref
   add_remarks(page, table, places, places.size());
   add_summary(page, "frames");
   page["residues"] = residue_rows(arrays, prefix + ".residues.csv", frames);
-  StudyJson provenance = StudyJson::array();
-  for (const std::string& comment : table.comments) {
-    const std::size_t colon = comment.find(": ");
-    if (colon == std::string::npos) continue;
-    const std::size_t begin = comment.find_first_not_of(' ');
-    provenance.push_back({comment.substr(begin, colon - begin), comment.substr(colon + 2)});
-  }
-  page["provenance"] = std::move(provenance);
+  page["provenance"] = trajectory_provenance(table.comments);
   page["states"] = std::to_string(frames.size()) + " frames, each compared with one structure";
 }
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <string>
 
@@ -88,6 +89,30 @@ TEST_CASE("a glTF file has the positions, values and colours of its result") {
   for (const auto& view : glb.json.at("bufferViews")) CHECK(view.at("byteOffset").get<std::size_t>() % 4 == 0);
   CHECK(glb.json.at("asset").at("extras").at("Surface").get<std::string>().rfind("Difference", 0) == 0);
   CHECK(attributes.contains("COLOR_0"));
+}
+
+TEST_CASE("files of a study have the widest scales of all its results") {
+  RowResult one;
+  one.folder.write("c.pqr", std::regex_replace(row_of_atoms(8, 0.4), std::regex(" 0\\.5000"), " -2.000"));
+  const std::string other = one.folder.file("other");
+  REQUIRE(run_espdiff(one.folder.file("a.pqr") + " " + one.folder.file("c.pqr") + " --potential coulomb -q -o " + other)
+              .status == 0);
+  ExportOptions with_other, with_one;
+  with_other.range_of = {other};
+  with_one.range_of = {one.prefix};
+  const ExportedResult alone = read_exported_result(one.prefix, {}), widest = read_exported_result(other, {});
+  REQUIRE(alone.scale.limit < widest.scale.limit);
+  REQUIRE(alone.residue_scale.limit < widest.residue_scale.limit);
+  for (const ExportedResult& shared :
+       {read_exported_result(one.prefix, with_other), read_exported_result(other, with_one)}) {
+    CHECK(shared.scale.limit == widest.scale.limit);
+    CHECK(shared.residue_scale.limit == widest.residue_scale.limit);
+  }
+  with_other.limit = 1;
+  CHECK_THROWS_WITH_AS(read_exported_result(one.prefix, with_other), doctest::Contains("exclude each other"),
+                       InputError);
+  with_one.range_of = {one.folder.file("none")};
+  CHECK_THROWS_WITH_AS(read_exported_result(one.prefix, with_one), doctest::Contains("none.vtp"), IoError);
 }
 
 TEST_CASE("a PLY file has a line for every number of a vertex") {

@@ -8,7 +8,9 @@
 #include <regex>
 #include <string>
 
+#include "base/citation.h"
 #include "base/error.h"
+#include "base/version.h"
 #include "cli/run_espdiff.h"
 #include "io/vtk/read_vtp.h"
 #include "page/browser.h"
@@ -217,6 +219,11 @@ TEST_CASE("a result that is not whole, or not a comparison's, is refused with th
   CHECK_THROWS_WITH_AS(
       report_page(result.prefix, ""),
       doctest::Contains("; this espdiff reads version 1: use that espdiff, or compute the result again"), FormatError);
+  auto changed = nlohmann::json::parse(record);
+  changed["causes"] = {{"reading", 3}};
+  result.folder.write("pair.json", changed.dump());
+  CHECK_THROWS_WITH_AS(report_page(result.prefix, ""),
+                       doctest::Contains("pair.json: a part of it is not as `espdiff compare` writes it"), FormatError);
   result.folder.write("pair.json", record);
   const std::string surface = read_file(result.prefix + ".vtp");
   for (const std::string array : {"source_position", "residue_index", "potential_difference"}) {
@@ -227,6 +234,10 @@ TEST_CASE("a result that is not whole, or not a comparison's, is refused with th
                          doctest::Contains(("has no point array '" + array + "'; compare again").c_str()), FormatError);
   }
   result.folder.write("pair.vtp", surface);
+  const std::string residues = read_file(result.prefix + ".residues.csv");
+  result.folder.write("pair.residues.csv", residues.substr(0, residues.find('\n', residues.find('\n') + 1) + 1));
+  CHECK_THROWS_WITH_AS(report_page(result.prefix, ""), doctest::Contains("pair.residues.csv: there is no row 2, and "),
+                       FormatError);
   std::filesystem::remove(result.prefix + ".residues.csv");
   CHECK_THROWS_WITH_AS(report_page(result.prefix, ""), doctest::Contains("pair.residues.csv"), IoError);
 }
@@ -289,6 +300,7 @@ TEST_CASE("a browser has the numbers of the file; a field's target is the sum of
   nlohmann::json wanted;
   for (const auto& quantity : record.at("quantities")) {
     const std::string name = quantity.at("name");
+    CHECK(quantity.at("label") != name);
     if (name == "why") continue;  // the last; the file has it by triangle
     CHECK(quantity.contains("sum_of") == (name == "potential_target" || name == "curvature_target"));
     if (name == "curvature_target") {
@@ -349,6 +361,27 @@ TEST_CASE("a browser marks what is unmatched and what is not trusted, each with 
   CHECK_MESSAGE(contains(*untrusted, "data-seen=\"untrusted:true|:false\""), untrusted->substr(0, 400));
   const auto unmatched = shown_in_browser(with("matched", 0.25), look, result.folder);
   CHECK_MESSAGE(contains(*unmatched, "data-seen=\"unmatched:true|unmatched:true\""), unmatched->substr(0, 400));
+}
+
+TEST_CASE("labels of linked views stand beside each other on a phone") {
+  if (!has_three()) return;
+  const SmallResult result;
+  const auto dom = shown_in_browser(
+      report_page(result.prefix, ""),
+      "document.getElementById('linked').click(); const canvas = document.getElementById('canvas'), boxes = "
+      "[...document.querySelectorAll('.label')].map((label) => label.getBoundingClientRect()); "
+      "document.documentElement.dataset.seen = [boxes.length, boxes.every((box, i) => box.right <= (i < 2 ? "
+      "boxes[i + 1] : canvas.getBoundingClientRect())[i < 2 ? 'left' : 'right'])].join('|');",
+      result.folder, 500);
+  if (!dom) return;
+  CHECK_MESSAGE(contains(*dom, "data-seen=\"3|true\""), dom->substr(0, 400));
+}
+
+TEST_CASE("a page says how to cite the version that made the result") {
+  if (!has_three()) return;
+  const SmallResult result;
+  const auto record = nlohmann::json::parse(element(report_page(result.prefix, ""), "record"));
+  CHECK(record.at("provenance").back() == nlohmann::json({"How to cite", citation_of(kVersion)}));
 }
 
 TEST_CASE("a page has the reasons of pictures: their keys, colours and shares of the surface") {

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/citation.h"
 #include "base/error.h"
+#include "base/version.h"
 #include "cli/run_espdiff.h"
 #include "page/browser.h"
 #include "page/result_page.h"
@@ -59,6 +61,7 @@ TEST_CASE("a matrix' page has every pair at its place, and names stay texts") {
   CHECK(record.at("trust").at(1).is_boolean());
   CHECK(record.at("order").size() == 3);
   CHECK(record.at("provenance").at(0).at(0) == "Program");
+  CHECK(record.at("provenance").back().at(0) == "How to cite");
   for (const auto& metric : record.at("metrics")) CHECK(metric.at("n") == 9);
 }
 
@@ -71,6 +74,18 @@ TEST_CASE("a trajectory's page has every frame, and its residues") {
   CHECK(record.at("residues").at("n") == 18);
   CHECK(record.at("residues").at("label") == "Mean absolute difference [kT/e in vacuum]");
   CHECK(contains(record.at("verdict").at("text").get<std::string>(), " of 3 frames are trustworthy"));
+  const auto& provenance = record.at("provenance");
+  CHECK(provenance.at(0).at(0) == "Program");
+  CHECK(provenance.back().at(1) == citation_of(kVersion));
+  CHECK(contains(provenance.dump(), "[\"Options\",\"all have their defaults\"]"));
+  for (const auto& row : provenance) CHECK_MESSAGE(!contains(row.at(0).get<std::string>(), "_"), row.dump());
+}
+
+TEST_CASE("a frame's reason that is a warning, too, stands once") {
+  const SmallStudy study;
+  study.folder.write("frames.csv", "frame,rmsd_A,trustworthy,reasons,warnings\n0,1,0,far off,far off\n1,1,1,,\n");
+  const auto record = nlohmann::json::parse(element(trajectory_page(study.trajectory, ""), "record"));
+  CHECK(record.at("remarks").dump() == R"({"0":["far off"]})");
 }
 
 TEST_CASE("a study that is damaged or of another version is refused") {

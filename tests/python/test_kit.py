@@ -52,6 +52,14 @@ def test_one_version():
         assert text.format(espdiff.__version__) in (REPOSITORY / name).read_text(), name
 
 
+def test_pages_cite_as_the_citation_file_does():
+    cff = (REPOSITORY / "CITATION.cff").read_text()
+    title, author = (re.search(pattern, cff, re.MULTILINE).group(1) for pattern in (r'^title: "(.*)"', r'^  - name: "(.*)"'))
+    source = (REPOSITORY / "src" / "base" / "citation.h").read_text()
+    words = "".join(re.findall(r'"([^"\n]*)"', source.split("return")[1]))
+    assert words == f"{author}. {title}. Version . Computer software."
+
+
 def test_every_public_name_is_documented():
     page = (REPOSITORY / "docs" / "python.md").read_text()
     for name in espdiff.__all__:

@@ -14,12 +14,15 @@ namespace {
 
 struct ExportArguments {
   std::string input, format, output;
+  std::vector<std::string> range_of;
   ExportOptions options;
 };
 
 int export_verb(const ExportArguments& a, const Context& context) {
   context.progress->report("export", 0.0);
-  for (const std::string& path : export_result(result_prefix(a.input), export_format(a.format), a.output, a.options))
+  ExportOptions options = a.options;
+  for (const std::string& other : a.range_of) options.range_of.push_back(result_prefix(other));
+  for (const std::string& path : export_result(result_prefix(a.input), export_format(a.format), a.output, options))
     std::cout << "wrote " << printable(path) << '\n';
   return 0;
 }
@@ -53,6 +56,7 @@ Verb add_export(CLI::App& app) {
   parser->add_option(
       "--range", a->options.limit,
       "End of the surface's colour scale, for signed values both ends; 0: covers 90 % of the values [0]");
+  add_range_of(*parser, a->range_of);
   parser->add_option("--colours,--colors", a->options.colours, "Colour map of signed values [red-blue]")
       ->check(CLI::IsMember({"red-blue", "cool-warm", "purple-orange"}));
   parser->add_option("--title", a->options.title, "Title; default: the names of both structures");

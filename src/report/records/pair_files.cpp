@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/citation.h"
 #include "base/error.h"
 #include "base/text/formats.h"
 #include "io/files/read_input.h"
@@ -30,6 +31,7 @@ constexpr UsualQuantity kUsualQuantities[] = {
     {"slip", "Slip of the mapping", false, true, false},
     {"displacement", "Displacement", false, true, false},
     {"path_length", "Length of the path", false, true, false},
+    {"turned", "Turned (1: side chain, 2: residue, 3: side chain, 8 A and more)", false, false, false},
 };
 
 /// Whether the record has what its readers take for granted.
@@ -176,8 +178,14 @@ std::vector<SurfaceQuantity> surface_quantities(const PairFiles& files) {
 
 std::vector<std::int32_t> residues_of_vertices(const PairFiles& files) {
   std::vector<std::int32_t> residues;
-  for (const double index : required_array(files, "residue_index", 1).values)
-    residues.push_back(index >= 0 && index < 1e9 ? static_cast<std::int32_t>(index) : -1);
+  const std::size_t n_rows = files.residues.rows.size();
+  for (const double index : required_array(files, "residue_index", 1).values) {
+    if (index >= static_cast<double>(n_rows))
+      throw FormatError(files.residues.path, 0,
+                        "there is no row " + std::to_string(n_rows + 1) + ", and " + files.prefix +
+                            ".vtp has points of its residue or of a later one; compare again");
+    residues.push_back(index >= 0 ? static_cast<std::int32_t>(index) : -1);
+  }
   return residues;
 }
 
@@ -261,7 +269,7 @@ std::vector<std::pair<std::string, std::string>> provenance_of(const PairFiles& 
     rows.emplace_back("Input: " + text_of(input, "role"), text);
   }
   rows.emplace_back("Options", options_of(record));
-  rows.emplace_back("How to cite", "espdiff, version " + version + "; CITATION.cff of the program names the work");
+  rows.emplace_back("How to cite", citation_of(version));
   return rows;
 }
 

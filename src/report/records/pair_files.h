@@ -49,7 +49,7 @@ struct SurfaceQuantity {
 std::vector<SurfaceQuantity> surface_quantities(const PairFiles& files);
 
 /// [vertex] indices into the residues of the source, or -1.
-/// @throws FormatError (the file has no such array)
+/// @throws FormatError (the file has no such array, or points of a residue without a row in OUT.residues.csv)
 std::vector<std::int32_t> residues_of_vertices(const PairFiles& files);
 
 /// [vertex] positions on the source's surface, superposed on the target's.
