@@ -85,7 +85,9 @@ void check_chirality(const PairedMolecules& pair, std::vector<Warning>& warnings
   warnings.push_back({std::to_string(n_inverted) + " of " + std::to_string(n) +
                           " paired residues have the opposite chirality (" + examples +
                           (n_inverted > 3 ? ", ..." : "") + ")" +
-                          (mirrored ? ": one molecule is a mirror image, whole or in part" : ""),
+                          (mirrored ? ": one molecule is a mirror image, whole or in part, or its atoms are in another order than "
+                                      "their names (read a trajectory with the topology that it was written with)"
+                                    : ""),
                       mirrored});
 }
 
