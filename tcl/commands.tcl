@@ -2,17 +2,15 @@
 
 # The keys of a command:
 #   arguments  their names; ?name? is optional, ?name ...? takes any number
-#   options    {-name kind default help ?choices?}; kinds as in options.tcl, default "required" marks required ones
+#   options    {-name kind default help ?choices? ?accepts?}; kinds as in options.tcl, default "required" marks required ones
 #   settings   all, surface or none: the core::settings it takes as options
 #   summary    one paragraph; returns: one sentence; example: a line or more
 #   run        the procedure; called with the dict of options and the arguments
 namespace eval ::espdiff {
-    variable computing {
-        {-device device auto "Where to compute: auto takes a GPU if one works, cuda:1 the second one"}
-        {-threads count 0 "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it"}
+    variable computing [concat [study_options computing] {
         {-progress command {} "Called as CMD stage fraction (0 to 1) about 20 times a second; `break` from it cancels"}
         {-command command {} "Compute in the background, and call CMD handle from the event loop at the end"}
-    }
+    }]
 
     variable replacing {{-overwrite boolean 0 "Replace files that are there"}}
 
@@ -162,25 +160,21 @@ namespace eval ::espdiff {
             drawing is up to four graphics molecules (eight in linked views), which are shown, hidden and deleted together.} \
         returns {the graphics molecules' ids} example {espdiff draw comparison1 -color difference -range {-5 5}}]
 
-    command view [dict create arguments {input} settings none run ::espdiff::view options {
-            {-layout choice turned "turned: from several sides; linked: source, target and difference; split: one half\
-                of each" {turned linked split}}
+    command view [dict create arguments {input} settings none run ::espdiff::view options [concat \
+        [study_options scene layout] {
             {-arguments text {} "Further options of the command line's `espdiff view`, a list such as {--molecule\
                 cartoon --labels 8}"}
             {-output file {} "Prefix of pictures and scenes saved in the viewer; default: INPUT-view in the\
                 working folder"}
-        } \
+        }] \
         summary {Starts espdiff's viewer, a separate program, with a comparison (its handle, or the exported
             PREFIX.vtp). For a handle, the viewer's inputs are written to a temporary folder, which is deleted when it
             ends. The viewer continues when VMD exits.} \
         returns {its process id} example {espdiff view comparison1 -layout linked}]
 
-    command figure [dict create arguments {handle file} settings none run ::espdiff::figure options [concat {
-            {-width count 1800 "Pixels, 400 to 6000; the height follows from the proportions of VMD's window"}
-            {-molecule choice none "Draw the target too: none, cartoon, sticks or lines" {none cartoon sticks lines}}
-            {-title text {} "Title above the picture"}
-        } $replacing] \
-        summary {Draws a comparison for print, as VMD shows it: VMD's camera, and the colours, range, fading and legend of the
+    command figure [dict create arguments {handle file} settings none run ::espdiff::figure \
+        options [concat [study_options scene {width molecule title}] $replacing] \
+        summary {Draws a comparison for print, as VMD shows it: VMD's camera and proportions, and the colours, range, fading and legend of the
             handle's drawing. It is drawn by espdiff's own renderer, which looks both maps up at every pixel, in a
             parallel projection.} \
         returns {the file} example {espdiff figure comparison1 figure1.png -width 2400}]
@@ -288,10 +282,8 @@ namespace eval ::espdiff {
                 FILE.error.dx"}
             {-dxfile file {} "Write the mean to this DX file"}
             {-loadmol text same "Molecule that gets the maps as data sets: an id, same, new, or none"}
-            {-device device auto "Where to compute: auto takes a GPU if one works, cuda:1 the second one"}
-            {-threads count 0 "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it"}
             {-progress command {} "Called as CMD stage fraction; `break` from it cancels"}
-        } [study_options potential] $replacing] \
+        } [study_options computing] [study_options potential] $replacing] \
         summary {Computes the electrostatic potential of a molecule's charges, by PME in the cell of each frame, or its
             mean over frames. Needs VMD; options shared with PMEPot have its names and meanings. A comparison does
             not need this command: `map pme` computes the maps itself.} \

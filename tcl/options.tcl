@@ -45,11 +45,12 @@ namespace eval ::espdiff {
         dict set table $name $description
     }
 
-    # The rows of the core's table of a study's own options, as commands.tcl has them.
-    proc study_options {study} {
+    # The rows of the core's table of a study's own options, as commands.tcl has them; of these names where they are given.
+    proc study_options {study {names *}} {
         set rows {}
         foreach row [core::study_settings $study] {
-            dict with row { lappend rows [list -$name $kind $default $help $choices] }
+            if {$names ne "*" && [dict get $row name] ni $names} continue
+            dict with row { lappend rows [list -$name $kind $default $help $choices $accepts] }
         }
         return $rows
     }
@@ -114,9 +115,9 @@ namespace eval ::espdiff {
         set description [dict get $table $name]
         set options {}
         foreach option [dict get $description options] {
-            lassign $option word kind default help choices
+            lassign $option word kind default help choices accepts
             lappend options [dict create name $word kind $kind default $default help $help choices $choices \
-                group {} setting 0]
+                accepts $accepts group {} setting 0]
         }
         if {$name eq "potential"} { set options [concat $options [potential_options]] }
         set wanted [dict get $description settings]
@@ -150,7 +151,6 @@ namespace eval ::espdiff {
         boolean "0 or 1"
         range "two numbers {LOW HIGH}, the lower one first, or auto"
         command "a Tcl command"
-        device "auto, cpu, cuda or cuda:N"
         text "a text"
         named "a list {NAME TEXT ...}"
         file "a file name"
@@ -161,6 +161,7 @@ namespace eval ::espdiff {
 
     proc accepted_values {option} {
         variable kinds
+        if {[dict get $option accepts] ne ""} { return [dict get $option accepts] }
         if {[dict get $option kind] eq "choice"} { return [join_words [dict get $option choices]] }
         return [dict get $kinds [dict get $option kind]]
     }
@@ -185,10 +186,9 @@ namespace eval ::espdiff {
                 if {$valid && $name eq "-field" && [llength $value] == 1} { lappend value {} }
                 if {$valid} { set valid [expr {[llength $value] % 2 == 0}] }
             }
-            device { set valid [regexp {^(auto|cpu|cuda(:[0-9]{1,4})?)$} $value] }
             choice {
-                # The core knows more about settings, such as values added by a later version.
-                set valid [expr {$value in $choices || $setting}]
+                # The core knows more about settings, such as values added by a later version, and about devices.
+                set valid [expr {$value in $choices || $setting || $name eq "-device"}]
             }
             default { set valid 1 }
         }
@@ -231,7 +231,7 @@ namespace eval ::espdiff {
     # `espdiff device` sets the device for all commands.
     proc default_of {option} {
         variable default_device
-        if {[dict get $option kind] eq "device"} { return $default_device }
+        if {[dict get $option name] eq "-device"} { return $default_device }
         return [dict get $option default]
     }
 

@@ -39,7 +39,7 @@ namespace eval ::espdiff {
             set help "Of [join_words [dict get $setting of]]: [dict get $setting help]"
             if {$default ne ""} { append help " ($default)" }
             lappend rows [dict create name -[dict get $setting map_option] kind [dict get $setting kind] default {} \
-                help $help choices [dict get $setting choices] group {} setting 0]
+                help $help choices [dict get $setting choices] accepts [dict get $setting accepts] group {} setting 0]
         }
         return $rows
     }

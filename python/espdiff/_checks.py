@@ -1,22 +1,8 @@
 """Arguments of the wrong kind, as one InputError that names the argument."""
 
-import operator
 import os
 
 from ._core import InputError
-
-
-def whole(name, value, least=0):
-    """A whole number, not a bool."""
-    try:
-        if isinstance(value, bool):
-            raise TypeError
-        number = operator.index(value)
-    except TypeError:
-        raise InputError(f"{name}: {value!r} is not a whole number") from None
-    if number < least:
-        raise InputError(f"{name}: {number} is less than {least}")
-    return number
 
 
 def text(name, value):
@@ -56,9 +42,3 @@ def listener(value):
     if value is None or isinstance(value, bool) or callable(value):
         return value
     raise InputError(f"progress: {value!r} is neither True nor a function of (stage, fraction)")
-
-
-def computation(potential, device, threads, pme_cell="auto", progress=None):
-    """What every computation takes: how potentials are made, where, by how many threads."""
-    listener(progress)
-    return text("potential", potential), text("pme_cell", pme_cell), text("device", device), whole("threads", threads)

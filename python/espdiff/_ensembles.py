@@ -203,8 +203,7 @@ def _check_groups(groups):
 
 
 @takes_options(besides=ORDER)
-def ensemble(groups=None, *, output=None, potential: str = "auto", device: str = "auto", threads: int = 0, progress=None,
-             **options: Unpack[EnsembleOptions]) -> typing.Optional[Ensemble]:
+def ensemble(groups=None, *, output=None, progress=None, **options: Unpack[EnsembleOptions]) -> typing.Optional[Ensemble]:
     """Compares two groups of simulations on one template surface: where is the difference more than noise?
 
     groups: {name: replicates}, two groups, or one to describe it; or the path of a list of them (`espdiff ensemble
@@ -225,7 +224,6 @@ def ensemble(groups=None, *, output=None, potential: str = "auto", device: str =
 
     Returns an Ensemble, None for a shard. What the design cannot show is a warning.
     """
-    _checks.computation(potential, device, threads)
     if groups is not None:
         _check_groups(groups)
     if hasattr(options.get("fields"), "items"):
@@ -251,7 +249,7 @@ def ensemble(groups=None, *, output=None, potential: str = "auto", device: str =
         elif groups is not None:
             given = _groups(groups, order.get("frames", "all"), made["charges"])
         with _Progress(progress, "ensemble") as listener:
-            core = _core.ensemble(given, made, _as_settings(settings), potential, device, threads, listener)
+            core = _core.ensemble(given, made, _as_settings(settings), listener)
     finally:
         for trajectory, frame in before:
             trajectory[frame]

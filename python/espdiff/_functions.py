@@ -68,7 +68,9 @@ def _with_arrays(states, given, arrays, roles):
 
 
 def _call(function, options):
-    arguments = ", ".join(f"{name}={value!r}" for name, value in options.items())
+    """What results tell of the call: the potential first, and not where it was computed."""
+    arguments = ", ".join(f"{name}={value!r}" for name, value in {"potential": "auto", **options}.items()
+                          if name not in ("pme_cell", "device", "threads"))
     return f"espdiff.{function}({arguments})"
 
 
@@ -121,60 +123,53 @@ def _with_map(state, given, unit, role):
 
 
 @takes_options
-def compare(source, target, *, potential: str = "auto", source_map=None, target_map=None, source_map_unit=None,
-            target_map_unit=None, pme_cell: str = "auto", device: str = "auto", threads: int = 0, progress=None,
+def compare(source, target, *, source_map=None, target_map=None, source_map_unit=None, target_map_unit=None, progress=None,
             **options: Unpack[Options]) -> Comparison:
     """Compares the electrostatic potential on the surfaces of two states.
 
     source, target: path, State, Universe or AtomGroup of MDAnalysis, atoms of ProDy. Those without charges get some from
     PDB2PQR as files do, or are an error; potential="none" compares shapes alone.
-    potential: what is computed without maps: auto, pb, pme, coulomb or none (`espdiff compare --help`).
-    source_map, target_map: potentials instead: paths (DX, VTI, cube) or Maps.
-    device: auto, cpu, cuda or cuda:N. threads: of the CPU; 0 for all.
+    source_map, target_map: paths (DX, VTI, cube) or Maps of the potentials; without them `potential` is computed.
     progress: True for a bar (tqdm), or a function of (stage, fraction).
-    options: those of the command line, with underscores: ionic_strength=0.1, method="deform".
+    options: those of the command line, with underscores: potential="pme", ionic_strength=0.1, threads=4;
+    `espdiff.help_options()` explains them.
     fields: other quantities besides, {name: kind}; instead of a kind an array with a number for each atom, or a pair of
     arrays, of the source's and of the target's atoms.
 
     Returns a Comparison. Raises espdiff.Error: InputError, FormatError, IoError, GeometryError, ...; Ctrl-C raises
     KeyboardInterrupt and ends the computation.
     """
-    potential, pme_cell, device, threads = _checks.computation(potential, device, threads, pme_cell, progress)
     if source_map is None and target_map is None:
         refuse_the_same_atoms(source, target)
     a = _with_map(state_of(source, "source"), source_map, source_map_unit, "source")
     b = _with_map(state_of(target, "target"), target_map, target_map_unit, "target")
     options, arrays = _array_fields(options, 2)
     a, b = _with_arrays([a, b], [source, target], arrays, ["source", "target"])
-    call = _call("compare", {"potential": potential, **options})
     with _Progress(progress, "compare") as listener:
-        return Comparison(_core.compare(a, b, _as_settings(options), potential, pme_cell, device, threads, call, listener))
+        return Comparison(_core.compare(a, b, _as_settings(options), _call("compare", options), listener))
 
 
 @takes_options
-def surface(state, *, potential: str = "auto", pme_cell: str = "auto", map=None, map_unit=None, regularize: bool = False,
-            device: str = "auto", threads: int = 0, progress=None, **options: Unpack[Options]) -> _core.Surface:
+def surface(state, *, map=None, map_unit=None, regularize: bool = False, progress=None,
+            **options: Unpack[Options]) -> _core.Surface:
     """The surface of one molecule with its potential at the vertices; potential="none" leaves that out.
 
     Arguments as of compare(). regularize: even out the triangles, as for the source of a comparison.
     """
-    potential, pme_cell, device, threads = _checks.computation(potential, device, threads, pme_cell, progress)
     regularize = _checks.switch("regularize", regularize)
     given = _with_map(state_of(state, "state"), map, map_unit, "state")
     with _Progress(progress, "surface") as listener:
-        return _core.surface(given, _as_settings(options), potential, pme_cell, device, threads, regularize, listener)
+        return _core.surface(given, _as_settings(options), regularize, listener)
 
 
-@takes_options
-def potential(state, method: str = "auto", *, device: str = "auto", threads: int = 0, progress=None,
-              **options: Unpack[Options]) -> _core.Map:
+@takes_options(without=("potential", "pme_cell"))
+def potential(state, method: str = "auto", *, progress=None, **options: Unpack[Options]) -> _core.Map:
     """A map of the potential of a molecule's charges: pb, pme or coulomb; auto as in compare().
 
     Returns a Map: values (nx, ny, nz), origin, steps, unit; save("map.dx").
     """
-    _checks.text("method", method), _checks.computation("auto", device, threads)
     with _Progress(progress, "potential") as listener:
-        return _core.potential(state_of(state, "state"), _as_settings(options), method, device, threads, listener)
+        return _core.potential(state_of(state, "state"), _as_settings({"potential": method, **options}), listener)
 
 
 @takes_options(groups=PREPARATION_GROUPS)
@@ -195,8 +190,7 @@ def labels_of_states(states):
 
 
 @takes_options(besides=study_defaults("matrix"))
-def matrix(states, labels=None, *, groups=None, potential: str = "auto", pme_cell: str = "auto", output=None,
-           device: str = "auto", threads: int = 0, progress=None,
+def matrix(states, labels=None, *, groups=None, output=None, progress=None,
            **options: Unpack[MatrixOptions]) -> typing.Optional[Matrix]:
     """Compares every state with every other one, in both directions.
 
@@ -209,7 +203,6 @@ def matrix(states, labels=None, *, groups=None, potential: str = "auto", pme_cel
 
     Returns a Matrix, None for a shard.
     """
-    potential, pme_cell, device, threads = _checks.computation(potential, device, threads, pme_cell, progress)
     own = {name: options.pop(name) for name in study_defaults("matrix") if name in options}
     states = _checks.several("states", states, "states")
     labels, groups = ([_checks.text(name, entry) for entry in _checks.several(name, given, "texts")]
@@ -223,8 +216,8 @@ def matrix(states, labels=None, *, groups=None, potential: str = "auto", pme_cel
     given = _with_arrays([state_of(state, role) for state, role in zip(states, roles)], states, arrays, roles)
     with _Progress(progress, "matrix") as listener, tempfile.TemporaryDirectory(prefix="espdiff-") as scratch:
         prefix = _checks.prefix("output", output) if output is not None else os.path.join(scratch, "matrix")
-        text = _core.matrix(given, list(labels), list(groups or []), _as_settings(options), potential, pme_cell, device,
-                            threads, prefix, study_texts("matrix", own), listener)
+        text = _core.matrix(given, list(labels), list(groups or []), _as_settings(options), prefix,
+                            study_texts("matrix", own), listener)
         return Matrix(text, table_beside(prefix)) if text else None
 
 
@@ -255,14 +248,12 @@ class Series:
     """
 
     @takes_options
-    def __init__(self, source, *, potential: str = "auto", pme_cell: str = "auto", start: str = "auto",
-                 device: str = "auto", threads: int = 0, **options: Unpack[Options]):
-        potential, pme_cell, device, threads = _checks.computation(potential, device, threads, pme_cell)
+    def __init__(self, source, *, start: str = "auto", **options: Unpack[Options]):
         options, arrays = _array_fields(options, 2)
         self._arrays = {name: target for name, (_, target) in arrays.items()}
         of_source, = _with_arrays([state_of(source, "source")], [source], {n: a[:1] for n, a in arrays.items()}, ["source"])
-        call = _call("Series", {"potential": potential, "start": _checks.text("start", start), **options})
-        self._series = _core.Series(of_source, _as_settings(options), potential, pme_cell, start, device, threads, call)
+        call = _call("Series", {"potential": "auto", "start": _checks.text("start", start), **options})
+        self._series = _core.Series(of_source, _as_settings(options), start, call)
 
     def step(self, target, progress=None, *, fields=None) -> Comparison:
         """Compares the source with the next target. Returns a Comparison.
@@ -278,17 +269,8 @@ class Series:
             return Comparison(self._series.step(state, listener))
 
 
-def _map_file(name, given, unit):
-    """(path, unit) of one map for all frames."""
-    if unit is not None:
-        unit = _checks.text(name + "_unit", unit)
-    return (_checks.path(name, given) if given is not None else "", unit or "")
-
-
 @takes_options(besides=study_defaults("trajectory"))
-def trajectory(source, files, csv, *, reference: str = "source", source_frames=None, frames_of=None, source_model: int = 1,
-               plugins="", potential: str = "auto", pme_cell: str = "auto", source_map=None, target_map=None,
-               source_map_unit=None, target_map_unit=None, device: str = "auto", threads: int = 0, progress=None,
+def trajectory(source, files, csv, *, source_frames=None, progress=None,
                **options: Unpack[TrajectoryOptions]) -> Trajectory:
     """Compares each frame of files with one structure: a row for each frame, as `espdiff trajectory` writes them.
 
@@ -302,21 +284,14 @@ def trajectory(source, files, csv, *, reference: str = "source", source_frames=N
     Returns a Trajectory: result (numbers of rows), columns, to_frame(). A resumed run that cannot continue the previous
     mapping says so in a warning.
     """
-    potential, pme_cell, device, threads = _checks.computation(potential, device, threads, pme_cell, progress)
-    if reference not in ("source", "previous"):
-        raise _core.InputError(f"reference: {reference!r} is not source or previous")
     own = {name: options.pop(name) for name in study_defaults("trajectory") if name in options}
     paths = {name: [_checks.path(name, path) for path in ([given] if isinstance(given, (str, os.PathLike)) else
                                                           _checks.several(name, given, "paths"))]
              for name, given in (("files", files), ("source_frames", source_frames or []))}
     if not paths["files"]:
         raise _core.InputError("files: name one trajectory or more")
-    order = {"source": _checks.path("source", source), "source_model": _checks.whole("source_model", source_model, 1),
-             "frames": paths["files"], "frames_of": _checks.path("frames_of", frames_of or ""),
-             "source_frames": paths["source_frames"], "reference": reference, "plugins": _checks.path("plugins", plugins),
-             "source_map": _map_file("source_map", source_map, source_map_unit),
-             "target_map": _map_file("target_map", target_map, target_map_unit), "potential": potential,
-             "pme_cell": pme_cell, "device": device, "threads": threads, "settings": _as_settings(options),
+    order = {"source": _checks.path("source", source), "frames": paths["files"], "source_frames": paths["source_frames"],
+             "settings": _as_settings(options),
              "options": study_texts("trajectory", own), "csv": _checks.prefix("csv", csv)}
     with _Progress(progress, "trajectory") as listener:
         summary = _core.trajectory(order, listener)

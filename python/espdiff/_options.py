@@ -79,6 +79,10 @@ class Options(TypedDict, total=False):
     regularize_tangential_gain: float
     regularize_max_iterations: int
     regularize_min_displacement: float
+    # auto, pb, pme, coulomb, none
+    potential: str
+    # auto, own, box
+    pme_cell: str
     # linear, nonlinear
     pb: str
     ionic_strength: float
@@ -108,6 +112,9 @@ class Options(TypedDict, total=False):
     pme_pad: str
     dielectric: float
     distance_dependent: bool
+    # auto, cpu, cuda, cuda:N
+    device: str
+    threads: int
 
 
 class MatrixOptions(Options, total=False):
@@ -133,6 +140,16 @@ class TrajectoryOptions(Options, total=False):
     resume: bool
     overwrite: bool
     skip_errors: bool
+    # source, previous
+    reference: str
+    frames_of: str
+    plugins: str
+    source_model: int
+    source_map: str
+    target_map: str
+    source_map_unit: str
+    target_map_unit: str
+    map_array: str
 
 
 class EnsembleOptions(Options, total=False):

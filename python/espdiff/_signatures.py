@@ -77,27 +77,33 @@ def as_text(value):
     return repr(float(value)) if isinstance(value, float) else str(value)  # NumPy's numbers have a repr of their own
 
 
-def takes_options(function=None, *, groups=None, besides=()):
+def takes_options(function=None, *, groups=None, besides=(), without=()):
     """Shows the options that **options stands for, and refuses others.
 
     groups: of the table's; all without it. besides: names of keyword arguments that the function handles itself.
+    without: names of the table's that it does not take.
     """
     if function is None:
-        return functools.partial(takes_options, groups=groups, besides=besides)
+        return functools.partial(takes_options, groups=groups, besides=besides, without=without)
     signature = inspect.signature(function)
     own = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
-    taken = {p.name for p in own}
+    taken = {p.name for p in own} | set(without)
     rows = [row for row in option_rows(groups) if row["name"] not in taken]
     extra = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=value) for name, value in dict(besides).items()
              if name not in taken]
     options = [inspect.Parameter(row["name"], inspect.Parameter.KEYWORD_ONLY, default=_default(row),
                                  annotation=_TYPES[row["kind"]]) for row in rows]
-    known = taken | {p.name for p in extra} | {row["name"] for row in rows} | set(PLURALS)
+    accepts = {row["name"]: row["accepts"] for row in rows if row["kind"] in ("number", "integer")}
+    known = (taken - set(without)) | {p.name for p in extra} | {row["name"] for row in rows} | set(PLURALS)
     label = function.__qualname__.replace(".__init__", "")
 
     @functools.wraps(function)
     def checked(*arguments, **named):
-        for name in named:
+        for name, value in named.items():
+            if name in without:
+                raise _core.InputError(f"{label}: there is no option {name}")
+            if isinstance(value, bool) and name in accepts:
+                raise _core.InputError(f"{name}: {value} is not {accepts[name]}")
             near = difflib.get_close_matches(name, known, 1) if name not in known else []
             if near:
                 raise _core.InputError(f"{label}: there is no option {name}; did you mean {near[0]}?")

@@ -14,6 +14,7 @@
 #include "page/result_page.h"
 #include "plot/automatic_range.h"
 #include "plot/colour_map.h"
+#include "potential/potential_plan.h"
 #include "potential/potential_settings.h"
 #include "python/src/boundary/arrays.h"
 #include "python/src/boundary/errors.h"
@@ -28,7 +29,7 @@
 #include "python/src/states/state.h"
 #include "report/records/metrics.h"
 #include "study/matrix_settings.h"
-#include "trajectory/trajectory_settings.h"
+#include "study/trajectory_study.h"
 #ifdef ESPDIFF_HAVE_HDF5
 #include "ensemble/ensemble_study.h"
 #endif
@@ -37,56 +38,58 @@ namespace nb = nanobind;
 
 namespace {
 
-/// Name, kind, choices, default and help of every option.
-nb::list list_settings() {
-  nb::list rows;
-  const espdiff::CompareOptions defaults;
-  const auto add = [&](const std::string& name, const std::string& group, const std::vector<std::string>& choices,
-                       const std::string& value, const std::string& help, const char* kind, const std::string& key) {
-    nb::dict row;
-    row["name"] = name;
-    row["key"] = key;
-    row["kind"] = kind;
-    row["group"] = group;
-    row["choices"] = choices;
-    row["default"] = value;
-    row["help"] = help;
-    rows.append(row);
-  };
-  for (const espdiff::Setting& s : espdiff::settings()) {
-    const char* const kind = s.is_named ? "named" : s.is_list ? "list" : to_string(s.kind);
-    add(s.name, s.group, s.choices, s.get(defaults), s.help, kind, s.name == espdiff::kThesisSetting ? "" : s.key());
-  }
-  for (const espdiff::PotentialSetting& s : espdiff::potential_settings())
-    add(s.name, "Potentials", s.choices, "", s.help, to_string(s.kind), "");
-  return rows;
+template <typename Options>
+nb::dict described(const espdiff::OptionRow<Options>& row, const Options& defaults) {
+  nb::dict made;
+  made["name"] = row.name;
+  made["key"] = "";
+  made["kind"] = to_string(row.kind);
+  made["group"] = row.group;
+  made["choices"] = row.choices;
+  made["default"] = row.get(defaults);
+  made["help"] = row.help;
+  made["accepts"] = row.accepts;
+  return made;
 }
 
-template <typename Study>
-nb::list list_rows(const std::vector<espdiff::OptionRow<Study>>& rows) {
-  nb::list all;
-  const Study defaults;
-  for (const espdiff::OptionRow<Study>& row : rows) {
-    nb::dict described;
-    described["name"] = row.name;
-    described["kind"] = to_string(row.kind);
-    described["group"] = row.group;
-    described["choices"] = row.choices;
-    described["default"] = row.get(defaults);
-    described["help"] = row.help;
-    all.append(described);
+template <typename Options>
+void add_rows(nb::list& all, const std::vector<espdiff::OptionRow<Options>>& rows) {
+  for (const auto& row : rows) all.append(described(row, Options()));
+}
+
+/// Every option of what computes.
+nb::list list_settings() {
+  nb::list rows;
+  for (const espdiff::Setting& s : espdiff::settings()) {
+    nb::dict row = described<espdiff::CompareOptions>(s, {});
+    if (s.is_named || s.is_list) row["kind"] = s.is_named ? "named" : "list";
+    if (s.name != espdiff::kThesisSetting) row["key"] = s.key();
+    rows.append(row);
   }
-  return all;
+  add_rows(rows, espdiff::potential_request_settings());
+  for (const espdiff::PotentialSetting& s : espdiff::potential_settings()) {
+    nb::dict row = described<espdiff::PotentialOptions>(s, {});
+    row["group"] = "Potentials";
+    row["default"] = "";  // that of one potential is none of another
+    rows.append(row);
+  }
+  add_rows(rows, espdiff::computing_settings());
+  return rows;
 }
 
 /// Those of matrix(), a trajectory or ensemble() besides the comparison's; none of ensembles without HDF5.
 nb::list list_study_settings(const std::string& study) {
-  if (study == "matrix") return list_rows(espdiff::matrix_settings());
-  if (study == "trajectory") return list_rows(espdiff::trajectory_settings());
+  nb::list rows;
+  if (study == "matrix") add_rows(rows, espdiff::matrix_settings());
+  if (study == "trajectory") {
+    add_rows(rows, espdiff::trajectory_settings());
+    add_rows(rows, espdiff::trajectory_file_settings());
+    add_rows(rows, espdiff::pair_map_settings());
+  }
 #ifdef ESPDIFF_HAVE_HDF5
-  if (study == "ensemble") return list_rows(espdiff::ensemble_settings());
+  if (study == "ensemble") add_rows(rows, espdiff::ensemble_settings());
 #endif
-  return {};
+  return rows;
 }
 
 nb::list list_metrics() {
@@ -171,8 +174,10 @@ NB_MODULE(_core, module) {
   espdiff::python::add_matrix(module);
   espdiff::python::add_ensemble(module);
   espdiff::python::add_command_line(module);
-  module.def("settings", &list_settings,
-             "Every option of compare() and its like: name, kind, its key in OUT.json, group, choices, default, help.");
+  module.def(
+      "settings", &list_settings,
+      "Every option of compare() and its like: name, kind, its key in OUT.json, group, choices, default, help, and "
+      "what it accepts.");
   module.def("study_settings", &list_study_settings, nb::arg("study"),
              "The options of matrix or ensemble besides those of compare(), in the same form.");
   module.def("automatic_limit", &espdiff::automatic_limit, nb::arg("values"), nb::arg("percentile") = 90.0,

@@ -4,14 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "base/error.h"
 #include "cli/words/spelling.h"
-#include "engine/select_engine.h"
-#include "io/files/write_csv.h"
 #include "io/grids/read_grid.h"
-#include "io/text/text_cursor.h"
 #include "options/input_settings.h"
 #include "options/options.h"
 
@@ -32,52 +28,6 @@ std::string without_name(const InputError& error, const std::string& name) {
 
 }  // namespace
 
-CLI::Validator checked_by(const std::function<void(const std::string&)>& check) {
-  return CLI::Validator(
-      [check](const std::string& text) {
-        try {
-          check(text);
-        } catch (const InputError& error) {
-          return spelled(error.message());
-        }
-        return std::string();
-      },
-      "");
-}
-
-CLI::Validator finite_number(double least) {
-  return checked_by([least](const std::string& text) {
-    double value = 0;
-    if (parse_number(text, value) && value >= least) return;
-    throw InputError(in_quotes(text) + " is not a finite number" +
-                     (std::isfinite(least) ? " of " + csv_number(least) + " or more" : ""));
-  });
-}
-
-void add_device_options(CLI::App& parser, DeviceArguments& arguments) {
-  parser
-      .add_option("--device", arguments.device,
-                  "Where to compute: auto takes a GPU if one works; doctor lists the GPUs")
-      ->check(checked_by([](const std::string& text) { parse_device(text); }))
-      ->type_name("auto|cpu|cuda|cuda:N")
-      ->capture_default_str()
-      ->group("Computation");
-  parser
-      .add_option("--threads", arguments.threads,
-                  "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it")
-      ->check(checked_by([](const std::string& text) {
-        long long n = -1;
-        if (!parse_integer(text, n)) throw InputError(in_quotes(text) + " is no whole number");
-        check_threads(n);
-      }))
-      ->capture_default_str()
-      ->group("Computation");
-}
-
-std::unique_ptr<Engine> make_engine(const DeviceArguments& arguments) {
-  return select_engine(parse_device(arguments.device), arguments.threads);
-}
-
 void add_structure_options(CLI::App& parser, StructureOptions& options) {
   using Rows = RowsOf<StructureOptions>;
   static const std::vector<Rows::Row> all{
@@ -92,16 +42,8 @@ void add_structure_options(CLI::App& parser, StructureOptions& options) {
 void add_model_option(CLI::App& parser, StructureOptions& options) {
   using Rows = RowsOf<StructureOptions>;
   static const std::vector<Rows::Row> all{Rows::count(
-      "model", kStructureGroup, {1}, [](auto& o) -> auto& { return o.model; }, "Model of a multi-model file, from 1")};
+      "model", kStructureGroup, {1}, [](auto& o) -> auto& { return o.model; }, "Model of a file with several")};
   add_rows(parser, all, options);
-}
-
-void add_plugins_option(CLI::App& parser, std::string& folder, const std::string& group) {
-  parser
-      .add_option("--plugins", folder,
-                  "Folder of VMD's molfile plugins, which read trajectories and topologies (that of $VMDDIR, or of the "
-                  "`vmd` on PATH)")
-      ->group(group);
 }
 
 namespace {
@@ -124,6 +66,7 @@ bool has_setting(const Setting& setting, SettingsFor what) {
     case SettingsFor::kVariants: return !of_side && setting.name != "patches-of" && setting.name != "interface";
     case SettingsFor::kComplexes: return setting.group != "Fields";
     case SettingsFor::kSurface: return setting.of_surface;
+    case SettingsFor::kMap: return is_of_preparation(setting) || setting.name == "temperature";
     case SettingsFor::kPreparation: break;
   }
   return is_of_preparation(setting);
@@ -151,7 +94,9 @@ std::string negated(std::string help) {
 }
 
 void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what) {
-  if (what != SettingsFor::kSurface && what != SettingsFor::kPreparation) refuse_earlier_names(parser);
+  const bool is_comparison =
+      what == SettingsFor::kPair || what == SettingsFor::kVariants || what == SettingsFor::kComplexes;
+  if (is_comparison) refuse_earlier_names(parser);
   const CompareOptions defaults;
   for (const Setting& setting : settings()) {
     if (!has_setting(setting, what)) continue;

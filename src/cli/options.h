@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -11,6 +10,8 @@
 
 #include "base/handles.h"
 #include "base/molecule/structure_options.h"
+#include "cli/words/words.h"
+#include "engine/select_engine.h"
 #include "io/grids/read_grid.h"
 #include "options/settings.h"
 #include "potential/potential.h"
@@ -18,24 +19,10 @@
 
 namespace espdiff::cli {
 
-/// An option whose text passes when `check` throws no InputError, whose words become the message.
-CLI::Validator checked_by(const std::function<void(const std::string&)>& check);
-/// An option that takes finite numbers from `least` on.
-CLI::Validator finite_number(double least = -std::numeric_limits<double>::infinity());
-
-struct DeviceArguments {
-  std::string device = "auto";
-  int threads = 0;
-};
-void add_device_options(CLI::App& parser, DeviceArguments& arguments);
-std::unique_ptr<Engine> make_engine(const DeviceArguments& arguments);
-
 /// --no-hetero, and --water or --no-water, whichever changes what `options` are.
 void add_structure_options(CLI::App& parser, StructureOptions& options);
 /// --model, of verbs that read one model.
 void add_model_option(CLI::App& parser, StructureOptions& options);
-/// --plugins, of commands that read trajectories.
-void add_plugins_option(CLI::App& parser, std::string& folder, const std::string& group);
 /// What help calls the value of an option.
 std::string type_of(SettingKind kind, const std::vector<std::string>& choices, bool is_file);
 /// What is wrong with a value that `set` refuses, without the option's name, which the parser puts before it.
@@ -63,12 +50,13 @@ CLI::Option* add_row(CLI::App& parser, const std::string& words, const OptionRow
                                            [take](const std::vector<std::string>& texts) {
                                              for (const std::string& text : texts) take(text);
                                            },
-                                           row.help)
-                                     : parser.add_option_function<std::string>(words, take, row.help);
+                                           row.full_help())
+                                     : parser.add_option_function<std::string>(words, take, row.full_help());
   if (is_list) added->expected(1)->take_all();
   const auto check = [&row](const std::string& text) {
     Options scratch;
-    return refusal([&] { row.set(scratch, text); }, row.name);
+    const std::string why = refusal([&] { row.set(scratch, text); }, row.name);
+    return why.empty() ? why : why + did_you_mean(text, row.choices);
   };
   return added->check(CLI::Validator(check, ""))
       ->type_name(type_of(row.kind, row.choices, row.is_file))
@@ -76,11 +64,17 @@ CLI::Option* add_row(CLI::App& parser, const std::string& words, const OptionRow
       ->group(row.group);
 }
 
+/// "--color,--colour"
+template <typename Options>
+std::string words_of(const OptionRow<Options>& row) {
+  return "--" + row.name + (row.other_name.empty() ? "" : ",--" + row.other_name);
+}
+
 /// Adds the options of a study, which are set as they are read.
 template <typename Study>
 void add_rows(CLI::App& parser, const std::vector<OptionRow<Study>>& rows, Study& study) {
   for (const OptionRow<Study>& row : rows)
-    add_row<Study>(parser, "--" + row.name, row, study,
+    add_row<Study>(parser, words_of(row), row, study,
                    [&row, &study](const std::string& text) { row.set(study, text); });
 }
 
@@ -92,6 +86,7 @@ enum class SettingsFor {
   kVariants,    ///< of many structures alike: none of one side, no patches of one state, no interface
   kComplexes,   ///< one or two complexes: no fields
   kSurface,     ///< those that one molecule's surface depends on
+  kMap,         ///< the same, and the temperature
   kPreparation  ///< which atoms, and where charges come from
 };
 /// Adds settings as options `--name`; a boolean one as a flag, `--no-name` if it is on by default.

@@ -35,9 +35,8 @@ void share_ranges(Scene& scene, const std::string& surface, const std::vector<st
 }  // namespace
 
 void add_scene_options(CLI::App& parser, SceneArguments& a, const Scene& defaults) {
-  for (const SceneOption& option : scene_options()) {
-    const std::string words = "--" + option.name + (option.other_name.empty() ? "" : ",--" + option.other_name);
-    add_row<Scene>(parser, words, option, defaults, [&a, &option](const std::string& text) {
+  for (const OptionRow<Scene>& option : scene_options()) {
+    add_row(parser, words_of(option), option, defaults, [&a, &option](const std::string& text) {
       a.changes.push_back([&option, text](Scene& scene) { option.set(scene, text); });
     });
     if (option.name == "range") add_range_of(parser, a.range_of)->group(option.group);

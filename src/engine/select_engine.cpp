@@ -59,13 +59,29 @@ DeviceRequest parse_device(const std::string& text) {
   constexpr std::size_t kMostDigits = 4;
   if (!index.empty() && index.size() <= kMostDigits && index.find_first_not_of("0123456789") == std::string::npos)
     return {DeviceChoice::kCuda, std::stoi(index)};
-  throw InputError("unknown device '" + text + "'; use auto, cpu, cuda, or cuda:N for the GPU of that index");
+  refuse_value("device", text, "auto, cpu, cuda or cuda:N, the GPU of that index");
 }
 
-void check_threads(long long n_threads) {
-  if (n_threads >= 0 && n_threads <= kMostThreads) return;
-  throw InputError("the number of threads, " + std::to_string(n_threads) + ", is not between 0 (all) and " +
-                   std::to_string(kMostThreads));
+const std::vector<OptionRow<ComputingOptions>>& computing_settings() {
+  using Rows = RowsOf<ComputingOptions>;
+  const std::string group = "Computation";
+  static const std::vector<Rows::Row> all = [&] {
+    Rows::Row device = Rows::parsed(
+        "device", group,
+        [](auto& o, const std::string& text) {
+          parse_device(text);
+          o.device = text;
+        },
+        [](const auto& o) { return o.device; },
+        "Where to compute: auto takes a GPU if one works, cuda:1 the second one; doctor lists the GPUs");
+    device.kind = SettingKind::kChoice;
+    device.choices = {"auto", "cpu", "cuda", "cuda:N"};
+    return std::vector{device,
+                       Rows::count(
+                           "threads", group, {0, kMostThreads}, [](auto& o) -> auto& { return o.threads; },
+                           "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it")};
+  }();
+  return all;
 }
 
 int available_threads() {
@@ -115,13 +131,18 @@ BackEndStatus cuda_fourier_status() {
 }
 
 std::unique_ptr<Engine> select_engine(const DeviceRequest& device, int n_threads) {
-  check_threads(n_threads);
+  if (n_threads < 0 || n_threads > kMostThreads)
+    refuse_value("threads", std::to_string(n_threads), "a whole number from 0 to " + std::to_string(kMostThreads));
 #if defined(ESPDIFF_HAVE_CUDA)
   if (device_status(device).name != "cpu") return cuda_backend::make_engine(device.index);
 #else
   device_status(device);
 #endif
   return cpu_backend::make_engine(n_threads > 0 ? n_threads : available_threads());
+}
+
+std::unique_ptr<Engine> select_engine(const ComputingOptions& options) {
+  return select_engine(parse_device(options.device), options.threads);
 }
 
 }  // namespace espdiff

@@ -7,6 +7,7 @@
 
 #include "base/handles.h"
 #include "base/message.h"
+#include "base/text/option_row.h"
 
 namespace espdiff {
 
@@ -35,8 +36,14 @@ struct BackEndStatus {
 };
 /// More threads than any machine has cores only cost time, and the runtime's own limit ends the process.
 constexpr int kMostThreads = 1024;
-/// @throws InputError unless the number is 0 (all) to kMostThreads
-void check_threads(long long n_threads);
+
+/// Where something is computed.
+struct ComputingOptions {
+  std::string device = "auto";  ///< as parse_device() reads it
+  int threads = 0;              ///< of the CPU; 0 means available_threads()
+};
+/// The options of every command that computes.
+const std::vector<OptionRow<ComputingOptions>>& computing_settings();
 
 /// Default number of CPU threads: OMP_NUM_THREADS, which batch systems set, otherwise all cores available to the
 /// process.
@@ -55,7 +62,8 @@ BackEndStatus cuda_fourier_status();
 
 /// Makes an engine.
 /// @param n_threads CPU threads; 0 means available_threads(). A GPU ignores it.
-/// @throws DeviceError if the requested GPU is absent or does not work; InputError as check_threads()
+/// @throws DeviceError if the requested GPU is absent or does not work; InputError for more than kMostThreads
 std::unique_ptr<Engine> select_engine(const DeviceRequest& device, int n_threads);
+std::unique_ptr<Engine> select_engine(const ComputingOptions& options);
 
 }  // namespace espdiff

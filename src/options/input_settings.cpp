@@ -75,10 +75,9 @@ void add_structure_rows(std::vector<Setting>& all) {
 
 void add_charge_rows(std::vector<Setting>& all) {
   const char* const group = kChargeGroup;
-  all.push_back(of_surface(Rows::choice(
+  all.push_back(of_surface(Rows::word(
       "force-field", group, {"auto", "parse", "amber", "charmm", "tyl06", "peoepb", "swanson"},
-      [](CompareOptions& o, const std::string& text) { o.input.charges.force_field = text; },
-      [](const CompareOptions& o) { return o.input.charges.force_field; },
+      [](auto& o) -> auto& { return o.input.charges.force_field; },
       "Charges and radii for structures without charges, assigned by PDB2PQR; auto: PARSE, or AMBER where there are "
       "nucleotides")));
   all.push_back(of_surface(Rows::number(

@@ -53,8 +53,8 @@ void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix
         prefix + name, group, range, [ iteration, member ](auto& o) -> auto& { return iteration(o).*member; }, help));
   };
   add("sigma", {1e-6, 1000}, &DeformOptions::sigma, "Step scale");
-  add("mu", kShare, &DeformOptions::mu, "Weight of the external force against the internal one, 0 to 1");
-  add("rho", kShare, &DeformOptions::rho, "Weight of rigidity against tension, 0 to 1");
+  add("mu", kShare, &DeformOptions::mu, "Weight of the external force against the internal one");
+  add("rho", kShare, &DeformOptions::rho, "Weight of rigidity against tension");
   add("tangential-gain", kNotNegative, &DeformOptions::tangential_gain,
       "Multiplies the internal force, which moves vertices along the surface");
   all.push_back(Rows::count(
@@ -105,8 +105,8 @@ void add_mapping_settings(std::vector<Setting>& all) {
       "gvf-tolerance", kDeformGroup, {1e-12, 1000}, [](auto& o) -> auto& { return o.flow.tolerance; },
       "Converged when a sweep changes no vector by more than this; vectors at the surface have length 1"));
   all.push_back(Rows::count(
-      "gvf-max-sweeps", kDeformGroup, {0, 1e6}, [](auto& o) -> auto& { return o.flow.max_sweeps; },
-      "Maximum number of sweeps; 1 or more"));
+      "gvf-max-sweeps", kDeformGroup, {1, 1e6}, [](auto& o) -> auto& { return o.flow.max_sweeps; },
+      "Maximum number of sweeps"));
   all.push_back(Rows::choice(
       "interpolation", kDeformGroup, {"trilinear", "tricubic"},
       [](CompareOptions& o, const std::string& text) {
@@ -260,7 +260,7 @@ std::vector<Setting> make_settings() {
       "in water, give warnings and are not refused"));
   all.push_back(Rows::number(
       "require", "Verdict", {0, 1, true}, [](auto& o) -> auto& { return o.required_share; },
-      "Share of the source's surface, and of the target's, that has to be trusted, 0 to 1; with less a result is NOT "
+      "Share of the source's surface, and of the target's, that has to be trusted; with less a result is NOT "
       "TRUSTWORTHY. Use 0.95 for an answer of yes or no"));
   all.push_back(Rows::boolean(
       "leave-out-turned", "Verdict", [](auto& o) -> auto& { return o.leave_out_turned; },

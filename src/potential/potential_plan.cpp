@@ -8,6 +8,23 @@
 
 namespace espdiff {
 
+const std::vector<OptionRow<PotentialRequest>>& potential_request_settings() {
+  using Rows = RowsOf<PotentialRequest>;
+  const std::string group = "Potentials";
+  static const std::vector<Rows::Row> all{
+      Rows::word(
+          "potential", group, {"auto", "pb", "pme", "coulomb", "none"}, [](auto& o) -> auto& { return o.potential; },
+          "The potential that is computed where no maps are given. pb: in salt water, by the Poisson-Boltzmann "
+          "equation. pme: particle-mesh Ewald, in a periodic cell with the water of the file. coulomb: isolated "
+          "charges. auto: pb, with the salt of the ions counted where the file has explicit water (ensembles: pme "
+          "there, since they average). none: compare shapes alone"),
+      Rows::word(
+          "pme-cell", group, {"auto", "own", "box"}, [](auto& o) -> auto& { return o.cell; },
+          "Cell of pme. own: the file's (CRYST1 of each model), where the charges of water and ions count too. box: "
+          "around the atoms, along their principal axes, without water. auto: own where there is water in one")};
+  return all;
+}
+
 LoadedState load_for(const PotentialRequest& asked, bool wants_charges, const StructureFile& file, StateRequest request,
                      const InputOptions& options, const Progress& progress) {
   request.wants_charges = wants_charges && asked.potential != "none";

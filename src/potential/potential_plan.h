@@ -22,6 +22,9 @@ struct PotentialRequest {
   bool is_required = false;  ///< shapes alone would be no answer
 };
 
+/// Its options besides those of each potential, potential_settings().
+const std::vector<OptionRow<PotentialRequest>>& potential_request_settings();
+
 /// Loads a state that is to be compared: with charges where a potential is asked for or, for auto, where charges
 /// can be had.
 /// @param wants_charges false where maps are given

@@ -13,7 +13,7 @@ using Methods = std::vector<PotentialMethod>;
 const Methods kPb{PotentialMethod::kPoissonBoltzmann}, kPme{PotentialMethod::kPme}, kCoulomb{PotentialMethod::kCoulomb};
 
 using Rows = RowsOf<PotentialOptions>;
-constexpr NumberRange kDielectric{0.001, 1e6}, kPad{0, 1e4};
+constexpr NumberRange kDielectric{0.001, 1e6};
 
 void add_pb_settings(std::vector<PotentialSetting>& all) {
   all.push_back(
@@ -120,7 +120,7 @@ void add_pme_settings(std::vector<PotentialSetting>& all) {
   all.push_back(
       {"spline", kPme,
        Rows::count(
-           "pme-spline", "", {4, 8}, [](auto& o) -> auto& { return o.pme.order; }, "Order of the B-splines, 4 to 8")});
+           "pme-spline", "", {4, 8}, [](auto& o) -> auto& { return o.pme.order; }, "Order of the B-splines")});
   all.push_back({"precision", kPme,
                  Rows::choice_of<Precision>(
                      "pme-precision", "", {{"single", Precision::kSingle}, {"double", Precision::kDouble}},
@@ -131,15 +131,8 @@ void add_pme_settings(std::vector<PotentialSetting>& all) {
                      "PMEPot's numbers: its grid sizes, squared spline factor, whole-number volume, smooth part, "
                      "linear samples")});
   all.push_back({"pad", kPme,
-                 Rows::parsed(
-                     "pme-pad", "",
-                     [](PotentialOptions& o, const std::string& text) {
-                       double value = 0;
-                       if (!read_value(text, value) || !is_within(kPad, value))
-                         refuse_value("pme-pad", text, to_string(kPad, SettingKind::kNumber));
-                       o.pad_A = value;
-                     },
-                     [](const PotentialOptions& o) { return o.pad_A ? written_value(*o.pad_A) : std::string(); },
+                 Rows::optional_number(
+                     "pme-pad", "", {0, 1e4}, [](auto& o) -> auto& { return o.pad_A; },
                      "A box around the atoms instead of a cell, wider by so much on each side, Angstrom; 10 where no "
                      "cell is known")});
 }

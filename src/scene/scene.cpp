@@ -29,7 +29,7 @@ using Rows = RowsOf<Scene>;
 /// One setting of a scene: an entry of scene files and, but for the camera, an option.
 struct Entry {
   std::string key;  ///< in scene files
-  SceneOption option;
+  Rows::Row option;
   std::function<Json(const Scene&)> write;
   std::function<void(Scene&, const Json&)> read;
 };
@@ -68,17 +68,13 @@ Entry entry(OptionRow<Scene> row, std::string key = {}) {
     key = row.name;
     std::replace(key.begin(), key.end(), '-', '_');
   }
-  return {key,
-          {row, {}},
-          [row](const Scene& s) { return json_of(row, s); },
+  return {key, row, [row](const Scene& s) { return json_of(row, s); },
           [row](Scene& s, const Json& json) { row.set(s, text_of(row, json)); }};
 }
 
 /// Numbers between commas; an empty text is none. @throws InputError
 std::vector<double> parse_numbers(const std::string& name, const NumberRange& range, std::size_t most,
-                                  const std::string& text) {
-  const std::string accepted = to_string(range, SettingKind::kNumber) + ", or up to " + std::to_string(most) +
-                               " of these with commas between them";
+                                  const std::string& accepted, const std::string& text) {
   std::vector<double> numbers;
   std::istringstream list(text);
   for (std::string part; std::getline(list, part, ',');) {
@@ -98,12 +94,13 @@ Entry numbers(const std::string& key, const std::string& name, const std::string
     for (const double value : values) text += (text.empty() ? "" : ",") + written_value(value);
     return text;
   };
-  const auto row = Rows::parsed(
-      name, group, [=](Scene& s, const std::string& text) { at(s) = parse_numbers(name, range, most, text); },
+  const std::string accepts = to_string(range, SettingKind::kNumber) + ", or up to " + std::to_string(most) +
+                              " of these with commas between them";
+  auto row = Rows::parsed(
+      name, group, [=](Scene& s, const std::string& text) { at(s) = parse_numbers(name, range, most, accepts, text); },
       [=](const Scene& s) { return text_of_list(at(s)); }, help);
-  return {key,
-          {row, {}},
-          [at](const Scene& s) { return Json(at(s)); },
+  row.accepts = accepts;
+  return {key, row, [at](const Scene& s) { return Json(at(s)); },
           [=](Scene& s, const Json& json) { row.set(s, text_of_list(json.get<std::vector<double>>())); }};
 }
 
@@ -127,8 +124,7 @@ Entry range_entry() {
                                   : written_value(s.range.limit);
       },
       "End of the colour scale, for signed values both ends, or LOW:HIGH; 0: by the percentile");
-  return {"range",
-          {row, {}},
+  return {"range", row,
           [](const Scene& s) {
             return s.range.given_ends ? Json{s.range.low, s.range.high} : Json(s.range.limit);
           },
@@ -202,19 +198,10 @@ Entry focus_entry() {
 }
 
 Entry slice_entry() {
-  const auto row = Rows::parsed(
-      "slice", kContext,
-      [](Scene& s, const std::string& text) {
-        double value = 0;
-        if (!text.empty() && (!read_value(text, value) || !is_within(kShare, value)))
-          refuse_value("slice", text, to_string(kShare, SettingKind::kNumber));
-        s.slice = text.empty() ? std::nullopt : std::optional<double>(value);
-      },
-      [](const Scene& s) { return s.slice ? written_value(*s.slice) : std::string(); },
+  const auto row = Rows::optional_number(
+      "slice", kContext, kShare, [](auto& s) -> auto& { return s.slice; },
       "Potential on a plane across the view: 0 in front, 1 behind");
-  return {"slice",
-          {row, {}},
-          [](const Scene& s) { return s.slice ? Json(*s.slice) : Json(nullptr); },
+  return {"slice", row, [](const Scene& s) { return s.slice ? Json(*s.slice) : Json(nullptr); },
           [row](Scene& s, const Json& json) {
             row.set(s, json.is_null() ? std::string() : written_value(json.get<double>()));
           }};
@@ -233,10 +220,8 @@ void add_colours(std::vector<Entry>& all) {
                                    "Percentage of the values that an automatic scale covers")));
   all.push_back(entry(Rows::number("potential-range", kColours, kNotNegative, ESPDIFF_AT(potential_limit),
                                    "End of the scale of both potentials in the layout linked; 0: automatic")));
-  all.push_back(entry(Rows::choice(
-      "colours", kColours, {"red-blue", "cool-warm", "purple-orange"},
-      [](Scene& s, const std::string& text) { s.colours = text; }, [](const Scene& s) { return s.colours; },
-      "Colour map of signed values")));
+  all.push_back(entry(Rows::word("colours", kColours, {"red-blue", "cool-warm", "purple-orange"}, ESPDIFF_AT(colours),
+                                 "Colour map of signed values")));
   all.back().option.other_name = "colors";
   all.push_back(
       entry(Rows::text("unit", kColours, ESPDIFF_AT(unit), "Unit in the legend, if the file does not give it")));
@@ -342,9 +327,9 @@ void require(bool fulfilled, const Message& message) {
 
 }  // namespace
 
-const std::vector<SceneOption>& scene_options() {
-  static const std::vector<SceneOption> all = [] {
-    std::vector<SceneOption> options;
+const std::vector<Rows::Row>& scene_options() {
+  static const std::vector<Rows::Row> all = [] {
+    std::vector<Rows::Row> options;
     for (const Entry& entry : entries()) {
       if (!entry.option.name.empty()) options.push_back(entry.option);
     }
@@ -394,7 +379,7 @@ Scene read_scene(const std::string& path, const Scene& defaults) {
 }
 
 void check(const Scene& s) {
-  for (const SceneOption& option : scene_options()) {
+  for (const Rows::Row& option : scene_options()) {
     Scene scratch;
     option.set(scratch, option.get(s));
   }

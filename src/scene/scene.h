@@ -63,13 +63,8 @@ struct Scene {
   std::optional<double> slice;  ///< plane through the target's map across the view: 0 front, 1 back
 };
 
-/// One option of a picture.
-struct SceneOption : OptionRow<Scene> {
-  std::string other_name;  ///< that the option has besides: "colour" of "color"
-};
-
 /// All settings of a scene that are options of `render` and `view`; each is one row, and an entry of scene files too.
-const std::vector<SceneOption>& scene_options();
+const std::vector<OptionRow<Scene>>& scene_options();
 
 /// A scene as JSON, including the defaults.
 std::string scene_json(const Scene& scene);

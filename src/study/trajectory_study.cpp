@@ -15,8 +15,6 @@
 namespace espdiff {
 namespace {
 
-bool has_given_maps(const TrajectoryStudy& study) { return study.source_map.has_map() || study.target_map.has_map(); }
-
 /// A map in the Tcl command's words; empty for none.
 std::string map_words(const State& map) {
   if (map.map_path.empty()) return {};
@@ -46,15 +44,15 @@ class FileStates : public StepStates {
         reference_(study.reference()),
         first_(moving_options(), StateRole::kSource, study.source, study.source_model, source_files(),
                study.options.input, progress),
-        source_map_(study.source_map),
-        target_map_(study.target_map),
+        source_map_(study.maps.of(true)),
+        target_map_(study.maps.of(false)),
         states_(study.options) {
     open_targets(progress);
     check_left_out(study.options.input, {&first_.state(), &targets().state()});
     inputs_ = first_.inputs();
     if (second_) inputs_.insert(inputs_.end(), second_->inputs().begin(), second_->inputs().end());
     read_maps();
-    if (!has_given_maps(study))
+    if (!study.maps.any())
       states_.set_plan(PotentialPlan(study.potential, {facts_of(first_.state()), facts_of(targets().state())},
                                      study.options.temperature_K));
     if (reference_ != Reference::kOne) return;
@@ -89,7 +87,7 @@ class FileStates : public StepStates {
 
  private:
   MovingStateOptions moving_options() const {
-    return {study_.structure, study_.plugins, study_.potential, has_given_maps(study_)};
+    return {study_.structure, study_.plugins, study_.potential, study_.maps.any()};
   }
 
   /// Frames from which the source's molecule comes.
@@ -142,13 +140,32 @@ SeriesDescription description_of(const TrajectoryStudy& study, const PotentialPl
   if (potential.computes()) {
     run.map = potential.in_words();
   } else {
-    run.map = map_words(study.target_map);
-    run.reference_map = map_words(study.source_map);
+    run.map = map_words(study.maps.of(false));
+    run.reference_map = map_words(study.maps.of(true));
   }
   return run;
 }
 
 }  // namespace
+
+const std::vector<OptionRow<TrajectoryStudy>>& trajectory_file_settings() {
+  using Rows = RowsOf<TrajectoryStudy>;
+  const std::string group = "Frames";
+  static const std::vector<Rows::Row> all{
+      Rows::choice_of<bool>(
+          "reference", group, {{"source", false}, {"previous", true}},
+          [](auto& o) -> auto& { return o.against_previous; },
+          "Compare each frame with SOURCE, or with the frame before it"),
+      Rows::file(
+          "frames-of", group, [](auto& o) -> auto& { return o.frames_of; },
+          "Structure or topology whose atoms, charges and radii FRAMES have, where they are not SOURCE's"),
+      Rows::text(
+          "plugins", group, [](auto& o) -> auto& { return o.plugins; }, kMolfileFolderHelp),
+      Rows::count(
+          "source-model", "Molecules", {1}, [](auto& o) -> auto& { return o.source_model; },
+          "Model of a source file with several; with a topology as SOURCE, frame of the first trajectory")};
+  return all;
+}
 
 void check_study(const TrajectoryStudy& study) {
   const bool has_own_source = !study.source_frames.empty();
@@ -158,7 +175,7 @@ void check_study(const TrajectoryStudy& study) {
                      (has_own_source ? "" : "; give the frames' own structure as SOURCE"));
   std::vector<std::string> inputs = study.frames;
   inputs.insert(inputs.end(), study.source_frames.begin(), study.source_frames.end());
-  inputs.insert(inputs.end(), {study.source, study.frames_of, study.source_map.map_path, study.target_map.map_path});
+  inputs.insert(inputs.end(), {study.source, study.frames_of, study.maps.source_map, study.maps.target_map});
   check_request(study.request, study.options, std::move(inputs), study.picture);
 }
 

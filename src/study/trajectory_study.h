@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "options/options.h"
+#include "study/pair_maps.h"
 #include "study/series_states.h"
 #include "study/state.h"
 #include "trajectory/trajectory.h"
@@ -26,7 +27,7 @@ struct TrajectoryStudy {
   bool against_previous = false;           ///< each frame is compared with the one before it
   std::string plugins;                     ///< folder of VMD's molfile plugins; empty: find_molfile_folder()
   StructureOptions structure{};
-  State source_map{}, target_map{};  ///< the given maps of all frames, where there are any
+  PairMaps maps{};  ///< of all frames
   PotentialRequest potential{};
   CompareOptions options{};
   TrajectoryRequest request{};
@@ -38,6 +39,9 @@ struct TrajectoryStudy {
     return against_previous ? Reference::kPrevious : Reference::kOne;
   }
 };
+
+/// The options that name its files, in the order of the manuals; those of the maps are pair_map_settings().
+const std::vector<OptionRow<TrajectoryStudy>>& trajectory_file_settings();
 
 /// Refuses what cannot be, before anything is read. @throws InputError, as check_request() and check_outputs()
 void check_study(const TrajectoryStudy& study);

@@ -176,9 +176,9 @@ TEST_CASE("numbers that mean nothing are refused in our words") {
   };
   refused("potential a.pqr -o o.dx --pad nan", "--pad: 'nan' is not a number from 0 to 10000");
   refused("compare a.pqr b.pqr -o o --max-step 1e-12", "a number from 0.001 to 1000");
-  refused("surface a.pqr -o o.vtp --threads 10000", "the number of threads, 10000, is not between 0 (all) and 1024");
-  refused("surface a.pqr -o o.vtp --threads 2147483647", "is not between 0 (all) and 1024");
-  refused("surface a.pqr -o o.vtp --threads -1", "the number of threads, -1, is not between");
+  refused("surface a.pqr -o o.vtp --threads 10000", "--threads: '10000' is not a whole number from 0 to 1024");
+  refused("surface a.pqr -o o.vtp --threads 2147483647", "is not a whole number from 0 to 1024");
+  refused("surface a.pqr -o o.vtp --threads -1", "--threads: '-1' is not a whole number from 0 to 1024");
 }
 
 TEST_CASE("a plot needs no folder for temporary files and does not read the user's own settings of gnuplot") {

@@ -32,10 +32,12 @@ TEST_CASE("each setting accepts its own default and each choice") {
       CHECK(setting.get(options) == choice);
     }
     if (setting.kind == SettingKind::kNumber || setting.kind == SettingKind::kInteger) {
-      const bool is_share = setting.help.find("0 to 1") != std::string::npos;
+      const bool is_share =
+          setting.accepts == "a number from 0 to 1" || setting.accepts == "a number above 0, at most 1";
       const std::string number = is_share ? "0.7" : "7";
       setting.set(options, number);
       CHECK(setting.get(options) == number);
+      CHECK(message_of([&] { setting.set(options, "x"); }) == setting.name + ": 'x' is not " + setting.accepts);
     }
   }
   CHECK(names.size() > 20);
@@ -85,7 +87,7 @@ TEST_CASE("a refused value is named with the accepted ones") {
   CHECK(message("deform-field", "gvf3") == "deform-field: 'gvf3' is not density, distance, gvf or gvf2");
   CHECK(message("gvf-weight", "0") == "gvf-weight: '0' is not a number from 1e-06 to 1e+06");
   CHECK(message("gvf-tolerance", "-1") == "gvf-tolerance: '-1' is not a number from 1e-12 to 1000");
-  CHECK(message("gvf-max-sweeps", "many") == "gvf-max-sweeps: 'many' is not a whole number from 0 to 1000000");
+  CHECK(message("gvf-max-sweeps", "many") == "gvf-max-sweeps: 'many' is not a whole number from 1 to 1000000");
   CHECK(message("subdivide", "yes") == "subdivide: 'yes' is not 0 or 1");
   CHECK(message("method", "morf") == "method: 'morf' is not morph or deform");
   CHECK(message("max-stretch", "1") == "max-stretch: '1' is not a number above 1");
@@ -98,7 +100,7 @@ TEST_CASE("a refused value is named with the accepted ones") {
   CHECK(message("grid-spacing", "1e-300") == "grid-spacing: '1e-300' is not a number from 0.001 to 20");
   CHECK(message("max-step", "1e-5") == "max-step: '1e-5' is not a number from 0.001 to 1000");
   CHECK(message("gvf-max-sweeps", "2000000000") ==
-        "gvf-max-sweeps: '2000000000' is not a whole number from 0 to 1000000");
+        "gvf-max-sweeps: '2000000000' is not a whole number from 1 to 1000000");
   CHECK(message("sigmas", "1") == "there is no setting 'sigmas'");
 }
 

@@ -59,8 +59,12 @@ def test_options(made):
         espdiff.compare(*made, grid_spcing=1)
     with pytest.raises(espdiff.InputError, match="`grid_spacing`: '-1' is not a number from 0.001 to 20"):
         espdiff.compare(*made, grid_spacing=-1)
-    with pytest.raises(espdiff.InputError, match="cuda"):
-        espdiff.compare(*made, device="gpu")
+    for wrong, message in (({"device": "gpu"}, "device.*'gpu' is not auto, cpu, cuda or cuda:N"), ({"device": 3}, "device.*'3' is not"),
+                           ({"threads": "two"}, "threads.*'two' is not a whole number from 0 to 1024"),
+                           ({"threads": -1}, "threads.*'-1' is not a whole number from 0 to 1024"),
+                           ({"potential": "pbe"}, "potential.*'pbe' is not auto, pb, pme, coulomb or none")):
+        with pytest.raises(espdiff.InputError, match=message):
+            espdiff.compare(*made, **wrong)
     with pytest.raises(espdiff.InputError, match="source: a int is no molecule; give a path"):
         espdiff.compare(5, made[0])
 

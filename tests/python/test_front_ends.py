@@ -1,8 +1,10 @@
 """One table of cases through the command line, Tcl and Python: a study gives the same bytes, whoever asked for it."""
 
+import inspect
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 
@@ -10,6 +12,7 @@ import pytest
 
 import espdiff
 from conftest import made_arrays
+from espdiff import _signatures
 
 QUICK = {"grid-spacing": "1.5", "threads": "1"}
 
@@ -56,6 +59,7 @@ class Tcl:
         done = subprocess.run(["tclsh"], input=f"lappend auto_path {{{self.vmd / 'tcl'}}}\npackage require espdiff\n{script}\n",
                               capture_output=True, text=True)
         assert done.returncode == 0 and not done.stderr, done.stderr
+        return done.stdout
 
     def state(self, path, potential):
         return "{file {%s}%s}" % (path, "" if potential == "auto" else f" map {potential}")
@@ -228,9 +232,9 @@ def test_rows_of_a_trajectory_in_python(files, tmp_path):
         espdiff.trajectory(files["a"], files["frames"], out, potential="none", **as_python(QUICK))
     again = espdiff.trajectory(files["a"], files["frames"], out, potential="none", frames="0,2", resume=True, **as_python(QUICK))
     assert (again.result["rows"], again.result["resumed"]) == (0, 2)
-    for wrong, message in (({"reference": "first"}, "reference: 'first' is not source or previous"),
+    for wrong, message in (({"reference": "first"}, "reference.*'first' is not source or previous"),
                            ({"start": "sideways"}, "start.*sideways"), ({"frames": "7"}, "frame 7 is not among"),
-                           ({"source_model": 0}, "source_model: 0 is less than 1"),
+                           ({"source_model": 0}, "source_model.*'0' is not a whole number of 1 or more"),
                            ({"strat": "source"}, "did you mean start")):
         with pytest.raises(espdiff.InputError, match=message):
             espdiff.trajectory(files["a"], files["frames"], str(tmp_path / "x.csv"), potential="none", **wrong)
@@ -256,3 +260,45 @@ def test_why_shapes_alone_were_compared(front_ends, files, tmp_path, monkeypatch
     assert "no charges" in texts[1] and "PDB2PQR" in texts[1]
     with pytest.raises(espdiff.InputError, match="no charges"):
         espdiff.compare(files["a"], str(bare), **as_python(QUICK))
+
+
+# Options whose values have another form in each front end: paths, maps, dicts and functions of Python's, lists and commands of
+# Tcl's. `regularize` is a switch of one command.
+OWN_FORMS = {
+    "compare": {"progress"},
+    "surface": {"map", "map-unit", "progress", "regularize"},
+    "prepare": {"progress"},
+    "potential": {"dxfile", "progress", "variance"},
+    "matrix": {"groups", "output", "progress"},
+    "merge": {"output"},
+    "trajectory": {"csv", "progress", "source-frames"},
+    "ensemble": {"charges", "maps", "output", "progress"},
+}
+
+
+def options_of(program, tcl, command):
+    """The names of a command's options by front end, as the command line has them."""
+    help_text = subprocess.run([program, command, "--help-all"], capture_output=True, text=True, check=True).stdout
+    lines = re.findall(r"^  (?:-\w, )?(--.*)", help_text, re.M)
+    tcl_names = tcl.run(f"foreach option [::espdiff::options_of {command}] {{ puts [dict get $option name] }}").split()
+    singular = {many: one for one, many in _signatures.PLURALS.items()}
+    singular |= {name: option for option, name in _signatures.STUDY_NAMES.items()}
+    parameters = inspect.signature(getattr(espdiff, command)).parameters.values()
+    return [{name.removeprefix("no-") for line in lines for name in re.findall(r"--([\w-]+)", line.split("  ")[0])},
+            {name[1:] for name in tcl_names},
+            {singular.get(p.name, p.name).replace("_", "-") for p in parameters if p.kind is p.KEYWORD_ONLY}]
+
+
+def test_options_of_several_front_ends_are_rows(front_ends, program):
+    """An option that stands in two front ends, and in no table that both are made of, is written by hand twice."""
+    rows = {row["name"] for row in espdiff._core.settings()}
+    rows |= {row["name"] for study in ("matrix", "trajectory", "ensemble") for row in espdiff._core.study_settings(study)}
+    rows |= set(front_ends["tcl"].run("""
+        foreach row [::espdiff::core::study_settings potential] { puts [dict get $row name] }
+        foreach row [::espdiff::core::potential_settings] { puts [dict get $row map_option] }""").split())
+    by_hand = {}
+    for command in OWN_FORMS:
+        names = [name for front_end in options_of(program, front_ends["tcl"], command) for name in front_end - rows]
+        for name in {name for name in names if names.count(name) > 1}:
+            by_hand.setdefault(command, set()).add(name)
+    assert by_hand == OWN_FORMS

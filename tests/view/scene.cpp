@@ -112,7 +112,7 @@ TEST_CASE("values out of range are refused with the range") {
 
 TEST_CASE(
     "an option of a scene takes the text of its value, which its file has too, and refuses what the file refuses") {
-  for (const SceneOption& option : scene_options()) {
+  for (const OptionRow<Scene>& option : scene_options()) {
     INFO(option.name);
     const std::string unusual = option.get(unusual_scene()), usual = option.get({});
     Scene scene;

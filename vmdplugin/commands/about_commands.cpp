@@ -19,6 +19,7 @@
 #include "potential/map_series_request.h"
 #include "potential/potential_plan.h"
 #include "potential/potential_settings.h"
+#include "scene/scene.h"
 #include "study/matrix_settings.h"
 #include "trajectory/trajectory_settings.h"
 #include "vmdplugin/bridge/molfile_bridge.h"
@@ -100,6 +101,7 @@ Tcl_Obj* list_settings(const Call&) {
                            {"choices", to_list(setting.choices)},
                            {"default", to_obj(setting.get(defaults))},
                            {"help", to_obj(setting.help)},
+                           {"accepts", to_obj(setting.accepts)},
                            {"surface", to_obj(setting.of_surface)},
                            {"preparation", to_obj(is_of_preparation(setting))},
                            {"list", to_obj(setting.is_list)},
@@ -114,17 +116,22 @@ Tcl_Obj* list_rows(const std::vector<OptionRow<Study>>& rows) {
   std::vector<Tcl_Obj*> all;
   for (const OptionRow<Study>& row : rows) {
     all.push_back(to_dict({{"name", to_obj(row.name)},
+                           {"group", to_obj(row.group)},
                            {"kind", to_obj(row.is_file ? "file" : to_string(row.kind))},
                            {"choices", to_list(row.choices)},
                            {"default", to_obj(row.get(defaults))},
-                           {"help", to_obj(row.help)}}));
+                           {"help", to_obj(row.help)},
+                           {"accepts", to_obj(row.accepts)}}));
   }
   return to_list(all);
 }
 
-/// STUDY: the options of `matrix`, `trajectory`, `ensemble` or `potential` besides those of a comparison.
+/// STUDY: the options of `matrix`, `trajectory`, `ensemble` or `potential` besides those of a comparison; those of all
+/// that compute (`computing`), or of pictures (`scene`).
 Tcl_Obj* list_study_settings(const Call& call) {
   const std::string study = call.text(0);
+  if (study == "computing") return list_rows(computing_settings());
+  if (study == "scene") return list_rows(scene_options());
   if (study == "matrix") return list_rows(matrix_settings());
   if (study == "merge") return list_rows(merge_settings());
   if (study == "potential") return list_rows(map_series_settings());
@@ -151,7 +158,8 @@ Tcl_Obj* list_potential_settings(const Call&) {
                            {"default", to_obj(setting.get(defaults))},
                            {"map_option", to_obj(setting.map_option())},
                            {"map_default", to_obj(setting.get(map_defaults))},
-                           {"help", to_obj(setting.help)}}));
+                           {"help", to_obj(setting.help)},
+                           {"accepts", to_obj(setting.accepts)}}));
   }
   return to_list(all);
 }

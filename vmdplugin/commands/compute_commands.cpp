@@ -21,20 +21,14 @@
 namespace espdiff::vmdplugin {
 Computation parse_computation(DictReader& reader, bool* regularize) {
   Computation computation;
-  computation.device = reader.text("device", "auto");
-  parse_device(computation.device);  // reports a wrong one at once
-  computation.threads = reader.integer("threads", 0);
-  if (computation.threads < 0)
-    throw InputError("threads: " + std::to_string(computation.threads) + " is negative; 0 uses all");
+  reader.take(computing_settings(), computation.computing);
   computation.command_line = reader.text("command_line");
   if (regularize != nullptr) *regularize = reader.boolean("regularize", false);
   computation.options = make_options(reader.rest());
   return computation;
 }
 
-std::unique_ptr<Engine> engine_for(const Computation& computation) {
-  return select_engine(parse_device(computation.device), computation.threads);
-}
+std::unique_ptr<Engine> engine_for(const Computation& computation) { return select_engine(computation.computing); }
 
 namespace {
 

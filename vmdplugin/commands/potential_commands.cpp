@@ -20,8 +20,7 @@ namespace {
 /// potential. Only on the CPU, since a GPU's engine must be destroyed before the driver, and only if its buffers are
 /// small. Used by the worker's thread only.
 struct KeptEngine {
-  std::string device;
-  int threads = 0;
+  ComputingOptions of;
   std::shared_ptr<Engine> engine;
 };
 KeptEngine& kept_engine() {
@@ -29,25 +28,23 @@ KeptEngine& kept_engine() {
   return kept;
 }
 
-std::shared_ptr<Engine> take_engine(const Computation& wanted) {
+std::shared_ptr<Engine> take_engine(const ComputingOptions& wanted) {
   KeptEngine& kept = kept_engine();
-  if (kept.engine == nullptr || kept.device != wanted.device || kept.threads != wanted.threads)
-    return select_engine(parse_device(wanted.device), wanted.threads);
+  if (kept.engine == nullptr || kept.of.device != wanted.device || kept.of.threads != wanted.threads)
+    return select_engine(wanted);
   return kept.engine;
 }
 
 void keep_engine(const PotentialObject& used) {
   constexpr std::size_t kMostPoints = std::size_t{1} << 22;  // 50 MB of buffers
   const bool is_small = used.engine->back_end() == "cpu" && used.series->average().n_points() <= kMostPoints;
-  kept_engine() = {used.computation.device, used.computation.threads, is_small ? used.engine : nullptr};
+  kept_engine() = {used.computing, is_small ? used.engine : nullptr};
 }
 
 Tcl_Obj* potential(const Call& call) {
   auto object = std::make_shared<PotentialObject>();
   DictReader reader(call.arguments[0], "options");
-  object->computation.device = reader.text("device", "auto");
-  parse_device(object->computation.device);  // reports a wrong one at once
-  object->computation.threads = reader.integer("threads", 0);
+  reader.take(computing_settings(), object->computing);
   MapSeriesRequest request;
   reader.take(map_series_settings(), request);
   object->potential = options_of(request, take_potential_settings(reader), PmeOptions().temperature_K);
@@ -91,7 +88,7 @@ Tcl_Obj* potential_frame(const Call& call) {
         const auto alive = keep.lock();
         if (alive == nullptr) return;
         if (alive->series == nullptr) {
-          alive->engine = take_engine(alive->computation);
+          alive->engine = take_engine(alive->computing);
           alive->series = std::make_unique<PotentialSeries>(*alive->engine, alive->potential);
         }
         if (alive->keeps_frames) {

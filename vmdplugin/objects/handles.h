@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "certificate/result.h"
+#include "engine/select_engine.h"
 #include "frames/frame_files.h"
 #include "mapping/build_surface.h"
 #include "options/options.h"
@@ -25,8 +26,7 @@ namespace espdiff::vmdplugin {
 /// Where and how a job computes.
 struct Computation {
   CompareOptions options;
-  std::string device = "auto";
-  int threads = 0;
+  ComputingOptions computing;
   std::string command_line;  ///< the user's command, for the provenance
 };
 
@@ -94,7 +94,7 @@ struct TrajectoryObject : Object, StepStates {
 /// Potentials of frames, one after the other, and their average.
 struct PotentialObject : Object {
   const char* kind() const override { return "potential"; }
-  Computation computation;
+  ComputingOptions computing;
   PotentialOptions potential;
   bool keeps_frames = false;                // each frame's own map is wanted
   Grid frame;                               // the last one's, if so

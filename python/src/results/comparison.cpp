@@ -27,13 +27,11 @@ namespace espdiff::python {
 namespace {
 
 std::shared_ptr<Comparison> compare_states(const StatePtr& source, const StatePtr& target, const Settings& settings,
-                                           const std::string& potential, const std::string& pme_cell,
-                                           const std::string& device, int threads, const std::string& call,
-                                           const nb::object& progress) {
+                                           const std::string& call, const nb::object& progress) {
   auto made = std::make_shared<Comparison>();
   made->source = source;
   made->target = target;
-  const Computation computation(settings, potential, pme_cell, device, threads);
+  const Computation computation(settings);
   PairStudy study{source, target, computation.options, computation.potential, false, true, call};
   run(progress, [&](const Progress& told) {
     static_cast<PairAnswer&>(*made) = run_pair(study, *computation.make_engine(), told);
@@ -211,8 +209,7 @@ void add_comparison(nb::module_& module) {
       .def("save", &save, nb::arg("prefix"),
            "Writes PREFIX.json, PREFIX.vtp, PREFIX.residues.csv, and the states that no file holds as "
            "PREFIX.source.pqr and PREFIX.target.pqr; all or none. Returns their names. Raises IoError.");
-  module.def("compare", &compare_states, nb::arg("source"), nb::arg("target"), nb::arg("settings"),
-             nb::arg("potential"), nb::arg("pme_cell"), nb::arg("device"), nb::arg("threads"), nb::arg("call"),
+  module.def("compare", &compare_states, nb::arg("source"), nb::arg("target"), nb::arg("settings"), nb::arg("call"),
              nb::arg("progress").none());
 }
 

@@ -91,8 +91,8 @@ EnsembleStudy study_of(const nb::list& groups, const nb::dict& order) {
 
 /// @returns None for a shard
 nb::object ensemble(const nb::list& groups, const nb::dict& order, const Settings& settings,
-                    const std::string& potential, const std::string& device, int threads, const nb::object& progress) {
-  const Computation computation(settings, potential, "auto", device, threads);
+                    const nb::object& progress) {
+  const Computation computation(settings);
   auto made = std::make_shared<PyEnsemble>();
   {
     EnsembleStudy study = study_of(groups, order);
@@ -129,8 +129,8 @@ std::size_t merge_parts(const std::vector<std::string>& parts, const std::string
 
 void add_ensemble(nb::module_& module) {
   add_ensemble_result(module);
-  module.def("ensemble", &ensemble, nb::arg("groups"), nb::arg("order"), nb::arg("settings"), nb::arg("potential"),
-             nb::arg("device"), nb::arg("threads"), nb::arg("progress").none());
+  module.def("ensemble", &ensemble, nb::arg("groups"), nb::arg("order"), nb::arg("settings"),
+             nb::arg("progress").none());
   module.def("merge_ensemble", &merge_parts, nb::arg("parts"), nb::arg("output"), nb::arg("overwrite"),
              nb::arg("progress").none());
   module.def(

@@ -30,8 +30,7 @@ std::string text_of(const MatrixReport& report, const MatrixRun& run) {
 
 /// @returns the content of OUT.json; empty for a shard
 std::string compute(const std::vector<StatePtr>& states, const std::vector<std::string>& labels,
-                    const std::vector<std::string>& groups, const Settings& settings, const std::string& potential,
-                    const std::string& pme_cell, const std::string& device, int threads, const std::string& output,
+                    const std::vector<std::string>& groups, const Settings& settings, const std::string& output,
                     const Settings& own, const nb::object& progress) {
   if (labels.size() != states.size())
     throw InputError("labels: there are " + std::to_string(labels.size()) + " for " + std::to_string(states.size()) +
@@ -39,12 +38,12 @@ std::string compute(const std::vector<StatePtr>& states, const std::vector<std::
   if (!groups.empty() && groups.size() != states.size())
     throw InputError("groups: there are " + std::to_string(groups.size()) + " for " + std::to_string(states.size()) +
                      " states");
-  const Computation computation(settings, potential, pme_cell, device, threads);
+  const Computation computation(settings);
   MatrixStudy study;
   for (std::size_t i = 0; i < states.size(); ++i)
     study.variants.push_back({states[i], labels[i], groups.empty() ? std::string() : groups[i]});
   study.options = computation.options;
-  study.settings = settings;
+  study.settings = computation.settings;
   study.potential = computation.potential;
   study.refuses_shapes = true;
   study.run.output = output;
@@ -73,8 +72,7 @@ void add_matrix(nb::module_& module) {
   module.def("merge_matrix", &merge_shards, nb::arg("parts"), nb::arg("output"), nb::arg("overwrite"),
              nb::arg("progress").none());
   module.def("matrix", &compute, nb::arg("states"), nb::arg("labels"), nb::arg("groups"), nb::arg("settings"),
-             nb::arg("potential"), nb::arg("pme_cell"), nb::arg("device"), nb::arg("threads"), nb::arg("output"),
-             nb::arg("options"), nb::arg("progress").none());
+             nb::arg("output"), nb::arg("options"), nb::arg("progress").none());
 }
 
 }  // namespace espdiff::python

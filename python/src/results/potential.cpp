@@ -24,13 +24,12 @@ struct PyMap {
   Grid grid;
 };
 
-std::shared_ptr<PyMap> make_py_map(const StatePtr& state, const Settings& settings, const std::string& method,
-                                   const std::string& device, int threads, const nb::object& progress) {
+std::shared_ptr<PyMap> make_py_map(const StatePtr& state, const Settings& settings, const nb::object& progress) {
   auto made = std::make_shared<PyMap>();
-  const Computation computation(settings, method, "auto", device, threads);
+  const Computation computation(settings);
   run(progress, [&](const Progress& told) {
     const LoadedState loaded = loaded_alone(state, computation, told).loaded;
-    const PotentialChoice choice = choose_potential(method, "auto", {facts_of(loaded)});
+    const PotentialChoice choice = choose_potential(computation.potential.potential, "auto", {facts_of(loaded)});
     if (!choice.method) throw InputError(state->molecule.name + " has no charges, of which a potential could be made");
     const PotentialOptions options = make_potential_options(
         *choice.method, with_salt(choice, computation.potential.given), computation.options.temperature_K, true);
@@ -80,8 +79,7 @@ void add_potential(nb::module_& module) {
             file.commit();
           },
           nb::arg("path"), "Writes DX or VTI, by the name's ending. Raises InputError for other endings, IoError.");
-  module.def("potential", &make_py_map, nb::arg("state"), nb::arg("settings"), nb::arg("method"), nb::arg("device"),
-             nb::arg("threads"), nb::arg("progress").none());
+  module.def("potential", &make_py_map, nb::arg("state"), nb::arg("settings"), nb::arg("progress").none());
 }
 
 }  // namespace espdiff::python

@@ -29,10 +29,9 @@ StartFrom parse_start(const std::string& text, const CompareOptions& options) {
 /// A series with all that it refers to.
 class PySeries {
  public:
-  PySeries(StatePtr source, const Settings& settings, const std::string& potential, const std::string& pme_cell,
-           const std::string& start, const std::string& device, int threads, const std::string& call)
+  PySeries(StatePtr source, const Settings& settings, const std::string& start, const std::string& call)
       : source_(std::move(source)),
-        computation_(settings, potential, pme_cell, device, threads),
+        computation_(settings),
         series_({source_, nullptr, computation_.options, computation_.potential, false, true, call},
                 parse_start(start, computation_.options)) {}
 
@@ -60,25 +59,19 @@ class PySeries {
 nb::dict run_over_frames(const nb::dict& order, const nb::object& progress) {
   const auto text = [&](const char* name) { return nb::cast<std::string>(order[name]); };
   const auto texts = [&](const char* name) { return nb::cast<std::vector<std::string>>(order[name]); };
-  const Computation computation(nb::cast<Settings>(order["settings"]), text("potential"), text("pme_cell"),
-                                text("device"), nb::cast<int>(order["threads"]));
+  const Computation computation(nb::cast<Settings>(order["settings"]));
   TrajectoryStudy study;
   study.source = text("source");
-  study.source_model = nb::cast<int>(order["source_model"]);
   study.frames = texts("frames");
-  study.frames_of = text("frames_of");
   study.source_frames = texts("source_frames");
-  study.against_previous = text("reference") == "previous";
-  study.plugins = text("plugins");
-  for (const auto& [map, side] : {std::pair(&study.source_map, "source_map"), {&study.target_map, "target_map"}}) {
-    const auto [path, unit] = nb::cast<std::pair<std::string, std::string>>(order[side]);
-    map->map_path = path;
-    map->map_unit = unit;
-  }
   study.options = computation.options;
   study.potential = computation.potential;
   study.request.csv = text("csv");
-  set_rows(trajectory_settings(), study.request, nb::cast<Settings>(order["options"]));
+  for (const auto& [name, value] : nb::cast<Settings>(order["options"])) {
+    set_row(trajectory_settings(), study.request, name, value);
+    set_row(trajectory_file_settings(), study, name, value);
+    set_row(pair_map_settings(), study.maps, name, value);
+  }
   std::string warning;
   study.tell = [&](const std::string& told) { warning = told; };
   TrajectorySummary summary;
@@ -99,10 +92,8 @@ void add_series(nb::module_& module) {
   nb::class_<PySeries>(module, "Series",
                        "Many targets, such as the frames of a trajectory, against one source, whose surface and "
                        "potential are made once.")
-      .def(nb::init<StatePtr, const Settings&, const std::string&, const std::string&, const std::string&,
-                    const std::string&, int, const std::string&>(),
-           nb::arg("source"), nb::arg("settings"), nb::arg("potential"), nb::arg("pme_cell"), nb::arg("start"),
-           nb::arg("device"), nb::arg("threads"), nb::arg("call"))
+      .def(nb::init<StatePtr, const Settings&, const std::string&, const std::string&>(), nb::arg("source"),
+           nb::arg("settings"), nb::arg("start"), nb::arg("call"))
       .def("step", &PySeries::step, nb::arg("target"), nb::arg("progress").none(), "Compares the next target.");
   module.def("trajectory", &run_over_frames, nb::arg("order"), nb::arg("progress").none());
 }

@@ -23,12 +23,10 @@ struct PySurface {
   SurfaceResult result;
 };
 
-std::shared_ptr<PySurface> make_py_surface(const StatePtr& state, const Settings& settings,
-                                           const std::string& potential, const std::string& pme_cell,
-                                           const std::string& device, int threads, bool regularize,
+std::shared_ptr<PySurface> make_py_surface(const StatePtr& state, const Settings& settings, bool regularize,
                                            const nb::object& progress) {
   auto made = std::make_shared<PySurface>();
-  const Computation computation(settings, potential, pme_cell, device, threads);
+  const Computation computation(settings);
   run(progress, [&](const Progress& told) {
     StateReader reader(computation.states(), {state}, told);
     ComparedState only = reader.read(StateRole::kOnly);
@@ -73,8 +71,7 @@ void add_surface(nb::module_& module) {
             write_surface(path.string(), s.molecule, s.result, s.result.unit);
           },
           nb::arg("path"), "Writes a VTP file. Raises IoError.");
-  module.def("surface", &make_py_surface, nb::arg("state"), nb::arg("settings"), nb::arg("potential"),
-             nb::arg("pme_cell"), nb::arg("device"), nb::arg("threads"), nb::arg("regularize"),
+  module.def("surface", &make_py_surface, nb::arg("state"), nb::arg("settings"), nb::arg("regularize"),
              nb::arg("progress").none());
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "engine/engine.h"
-#include "engine/select_engine.h"
 #include "options/settings.h"
 
 namespace espdiff::python {
@@ -26,16 +25,16 @@ LoadedState loaded_arrays(const State& state) {
   return loaded;
 }
 
-Computation::Computation(const Settings& given, const std::string& potential_, const std::string& pme_cell,
-                         std::string device_, int threads_)
-    : potential{potential_, pme_cell, {}}, device(std::move(device_)), threads(threads_) {
-  parse_device(device);
-  check_threads(threads);
-  for (const auto& setting : given) (is_of_potential(setting.first) ? potential.given : settings).push_back(setting);
+Computation::Computation(const Settings& given) {
+  for (const auto& [name, text] : given) {
+    if (set_row(computing_settings(), computing, name, text)) continue;
+    if (set_row(potential_request_settings(), potential, name, text)) continue;
+    (is_of_potential(name) ? potential.given : settings).emplace_back(name, text);
+  }
   options = make_options(settings);
 }
 
-std::unique_ptr<Engine> Computation::make_engine() const { return select_engine(parse_device(device), threads); }
+std::unique_ptr<Engine> Computation::make_engine() const { return select_engine(computing); }
 
 StatesRequest Computation::states() const { return {options, potential, false, true}; }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/select_engine.h"
 #include "options/options.h"
 #include "potential/potential_plan.h"
 #include "state.h"
@@ -20,13 +21,11 @@ struct Computation {
   Settings settings;  ///< of the comparison, as they were given
   CompareOptions options;
   PotentialRequest potential;
-  std::string device = "auto";
-  int threads = 0;
+  ComputingOptions computing;
 
-  /// @param given of comparisons and of potentials: each name belongs to one of them
+  /// @param given of comparisons, of potentials, and of where it is computed: each name belongs to one of these tables
   /// @throws InputError (unknown names, values)
-  Computation(const Settings& given, const std::string& potential, const std::string& pme_cell, std::string device,
-              int threads);
+  explicit Computation(const Settings& given);
   std::unique_ptr<Engine> make_engine() const;
   /// A potential that cannot be computed is an error: NaN for every difference would look like an answer.
   StatesRequest states() const;

@@ -52,6 +52,7 @@ std::string to_string(const NumberRange& range, SettingKind kind) {
   const auto written = [is_whole](double value) {
     return is_whole ? std::to_string(static_cast<long long>(value)) : written_value(value);
   };
+  if (!std::isfinite(range.low)) return is_whole ? "a whole number" : "a number";
   const std::string text = is_whole ? "a whole number " : "a number ", low = written(range.low);
   const bool has_end = std::isfinite(range.high);
   if (range.is_above) return text + "above " + low + (has_end ? ", at most " + written(range.high) : "");

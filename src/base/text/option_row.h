@@ -31,7 +31,12 @@ struct OptionRow {
   std::function<void(Options&, const std::string&)> set;
   /// The value as a text that set() accepts.
   std::function<std::string(const Options&)> get;
-  bool is_file = false;  ///< the text names files, which are sought from the working folder
+  bool is_file = false;         ///< the text names files, which are sought from the working folder
+  std::string other_name = {};  ///< on the command line, besides: "colour" of "color"
+  std::string accepts = {};     ///< its values, as messages call them; empty: the choices, or what `help` says
+
+  /// The help with the accepted values.
+  std::string full_help() const { return accepts.empty() ? help : help + "; " + accepts; }
 };
 
 /// The numbers that an option accepts. Its ends keep the work that follows within reason: beyond them nobody compares
@@ -64,10 +69,10 @@ struct RowsOf {
   static Row number(const std::string& name, const std::string& group, NumberRange range, At at,
                     const std::string& help) {
     Row row{name, group, SettingKind::kNumber, {}, help, nullptr, nullptr};
-    row.set = [name, range, at](Options& o, const std::string& text) {
+    row.accepts = to_string(range, row.kind);
+    row.set = [name, range, at, accepts = row.accepts](Options& o, const std::string& text) {
       double value = 0;
-      if (!read_value(text, value) || !is_within(range, value))
-        refuse_value(name, text, to_string(range, SettingKind::kNumber));
+      if (!read_value(text, value) || !is_within(range, value)) refuse_value(name, text, accepts);
       at(o) = value;
     };
     row.get = [at](const Options& o) { return written_value(at(o)); };
@@ -78,13 +83,29 @@ struct RowsOf {
   static Row count(const std::string& name, const std::string& group, NumberRange range, At at,
                    const std::string& help) {
     Row row{name, group, SettingKind::kInteger, {}, help, nullptr, nullptr};
-    row.set = [name, range, at](Options& o, const std::string& text) {
+    row.accepts = to_string(range, row.kind);
+    row.set = [name, range, at, accepts = row.accepts](Options& o, const std::string& text) {
       long long value = 0;
-      if (!read_value(text, value) || !is_within(range, static_cast<double>(value)))
-        refuse_value(name, text, to_string(range, SettingKind::kInteger));
+      if (!read_value(text, value) || !is_within(range, static_cast<double>(value))) refuse_value(name, text, accepts);
       at(o) = static_cast<std::decay_t<decltype(at(o))>>(value);
     };
     row.get = [at](const Options& o) { return std::to_string(at(o)); };
+    return row;
+  }
+
+  /// A number that may be missing: an empty text.
+  template <typename At>
+  static Row optional_number(const std::string& name, const std::string& group, NumberRange range, At at,
+                             const std::string& help) {
+    Row row{name, group, SettingKind::kText, {}, help, nullptr, nullptr};
+    row.accepts = to_string(range, SettingKind::kNumber);
+    row.set = [name, range, at, accepts = row.accepts](Options& o, const std::string& text) {
+      double value = 0;
+      if (!text.empty() && (!read_value(text, value) || !is_within(range, value))) refuse_value(name, text, accepts);
+      at(o).reset();
+      if (!text.empty()) at(o) = value;
+    };
+    row.get = [at](const Options& o) { return at(o) ? written_value(*at(o)) : std::string(); };
     return row;
   }
 
@@ -133,6 +154,15 @@ struct RowsOf {
     return row;
   }
 
+  /// One of some words, which is the value.
+  template <typename At>
+  static Row word(const std::string& name, const std::string& group, const std::vector<std::string>& choices, At at,
+                  const std::string& help) {
+    return choice(
+        name, group, choices, [at](Options& o, const std::string& text) { at(o) = text; },
+        [at](const Options& o) { return at(o); }, help);
+  }
+
   /// One of some words, each of which stands for a value.
   template <typename Value, typename At>
   static Row choice_of(const std::string& name, const std::string& group,
@@ -156,15 +186,23 @@ struct RowsOf {
   }
 };
 
+/// Sets the option of this name. @returns false where there is none. @throws InputError as OptionRow::set
+template <typename Options>
+bool set_row(const std::vector<OptionRow<Options>>& rows, Options& options, const std::string& name,
+             const std::string& text) {
+  for (const OptionRow<Options>& row : rows) {
+    if (row.name != name) continue;
+    row.set(options, text);
+    return true;
+  }
+  return false;
+}
+
 /// Sets what is given by name. @throws InputError as OptionRow::set
 template <typename Options>
 void set_rows(const std::vector<OptionRow<Options>>& rows, Options& options,
               const std::vector<std::pair<std::string, std::string>>& given) {
-  for (const auto& [name, text] : given) {
-    for (const OptionRow<Options>& row : rows) {
-      if (row.name == name) row.set(options, text);
-    }
-  }
+  for (const auto& [name, text] : given) set_row(rows, options, name, text);
 }
 
 }  // namespace espdiff

@@ -42,7 +42,7 @@ struct CompareArguments {
   int source_model = 1, target_model = 1;
   bool quiet = false, full = false, overwrite = false, exit_zero = false, no_trials = false;
   StructureOptions structure;
-  DeviceArguments device;
+  ComputingOptions computing;
   GivenSettings settings;
 };
 
@@ -63,18 +63,19 @@ void add_input_options(CLI::App& p, CompareArguments& a) {
   p.add_option("--residue-quantity", a.residue_quantity,
                "Column of the residue table (mean_abs_difference; without potentials mean_displacement_A)")
       ->group("Residues");
-  p.add_option("--source-model", a.source_model, "Model of a multi-model source file, from 1")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str()
-      ->group("Molecules");
-  p.add_option("--target-model", a.target_model, "Model of a multi-model target file, from 1")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str()
-      ->group("Molecules");
+  using Rows = RowsOf<CompareArguments>;
+  static const std::vector<Rows::Row> models{
+      Rows::count(
+          "source-model", "Molecules", {1}, [](auto& o) -> auto& { return o.source_model; },
+          "Model of a source file with several"),
+      Rows::count(
+          "target-model", "Molecules", {1}, [](auto& o) -> auto& { return o.target_model; },
+          "Model of a target file with several")};
+  add_rows(p, models, a);
 }
 
 StatePtr state_of(const CompareArguments& a, bool is_source) {
-  State state = with_given_map(a.maps, is_source);
+  State state = a.maps.of(is_source);
   state.path = is_source ? a.source : a.target;
   state.structure = a.structure;
   state.structure.model = is_source ? a.source_model : a.target_model;
@@ -193,7 +194,7 @@ int compare_verb(const CompareArguments& a, const Context& context) {
     throw InputError("--residue-quantity needs --residue-pdb FILE");
   if (!a.residue_quantity.empty()) require_residue_quantity(a.residue_quantity, options.fields);
 
-  const std::unique_ptr<Engine> engine = make_engine(a.device);
+  const std::unique_ptr<Engine> engine = select_engine(a.computing);
   const PairAnswer answer = run_pair(study_of(a, options, context), *engine, *context.progress);
   const CompareResult& result = answer.result;
   context.progress->report("write", 0.0);
@@ -241,7 +242,7 @@ Verb add_compare(CLI::App& app) {
   add_input_options(*parser, *arguments);
   add_structure_options(*parser, arguments->structure);
   add_settings(*parser, arguments->settings, SettingsFor::kPair);
-  add_device_options(*parser, arguments->device);
+  add_rows(*parser, computing_settings(), arguments->computing);
   parser->add_flag("-q,--quiet", arguments->quiet, "Print the verdict and the main number only");
   parser->add_flag("--full", arguments->full, "Print every number and the certificate, as `espdiff show OUT` does");
   parser->add_flag("--overwrite", arguments->overwrite, "Replace a result of this name, if there is one");

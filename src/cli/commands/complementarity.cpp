@@ -26,7 +26,7 @@ struct ComplementarityArguments {
   bool quiet = false, overwrite = false;
   StructureOptions structure;
   PotentialRequest potential;
-  DeviceArguments device;
+  ComputingOptions computing;
   GivenSettings settings;
 };
 
@@ -63,7 +63,7 @@ int complementarity_verb(const ComplementarityArguments& a, const Context& conte
   if (!plan.computes())
     throw InputError("complementarity needs potentials: " +
                      (plan.because().empty() ? "leave out " + option("potential", "none") : plan.because()));
-  const std::unique_ptr<Engine> engine = make_engine(a.device);
+  const std::unique_ptr<Engine> engine = select_engine(a.computing);
   provenance.device = engine->back_end();
   std::vector<InterfaceOfComplex> interfaces;
   for (const LoadedState& state : states)
@@ -103,7 +103,7 @@ Verb add_complementarity(CLI::App& app) {
   add_computed_map_options(*parser, a->potential);
   add_structure_options(*parser, a->structure);
   add_settings(*parser, a->settings, SettingsFor::kComplexes);
-  add_device_options(*parser, a->device);
+  add_rows(*parser, computing_settings(), a->computing);
   set_help(*parser, {"--interface --output --overwrite --potential --select --ph --threads --quiet",
                      {"espdiff complementarity 1vfb.pdb --interface A,B:C -o d13",
                       "espdiff complementarity wild.pdb mutant.pdb --interface A:B -o change"}});

@@ -29,7 +29,7 @@ struct EnsembleArguments {
   std::vector<std::string> maps;     ///< GROUP=PATTERN
   EnsembleStudy study;
   bool quiet = false;
-  DeviceArguments device;
+  ComputingOptions computing;
   GivenSettings settings;
 };
 
@@ -77,7 +77,7 @@ int ensemble_verb(const EnsembleArguments& a, const Context& context) {
   study.options = ensemble_options(a.settings);
   name_inputs(a, study);
   const EnsembleAnswer answer = run_study(
-      study, [&] { return make_engine(a.device); }, *context.progress,
+      study, [&] { return select_engine(a.computing); }, *context.progress,
       [](const Message& text) { std::fprintf(stderr, "espdiff: warning: %s\n", printable(text.plain()).c_str()); });
   if (a.quiet) return 0;
   for (const EnsembleReport& report : answer.reports) print_run(report, answer.device);
@@ -140,7 +140,7 @@ Verb add_ensemble(CLI::App& app) {
   parser->add_option("-o,--output", a->study.run.output, "Prefix of the results")->required();
   add_rows(*parser, ensemble_settings(), a->study);
   add_settings(*parser, a->settings, SettingsFor::kVariants);
-  add_device_options(*parser, a->device);
+  add_rows(*parser, computing_settings(), a->computing);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   set_help(*parser,
            {"--output --group --list --charges --from --resume --overwrite --shard --frames --template "

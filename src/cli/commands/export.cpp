@@ -35,6 +35,24 @@ std::string formats_help() {
   return text;
 }
 
+/// Of the colours.
+const std::vector<OptionRow<ExportOptions>>& scale_settings() {
+  using Rows = RowsOf<ExportOptions>;
+  const std::string group = "Colours";
+  static const std::vector<Rows::Row> all = [&] {
+    std::vector<Rows::Row> rows{
+        Rows::number(
+            "range", group, kNotNegative, [](auto& o) -> auto& { return o.limit; },
+            "End of the surface's colour scale, for signed values both ends; 0: covers 90 % of the values"),
+        Rows::word(
+            "colours", group, {"red-blue", "cool-warm", "purple-orange"}, [](auto& o) -> auto& { return o.colours; },
+            "Colour map of signed values")};
+    rows.back().other_name = "colors";
+    return rows;
+  }();
+  return all;
+}
+
 }  // namespace
 
 Verb add_export(CLI::App& app) {
@@ -53,12 +71,8 @@ Verb add_export(CLI::App& app) {
                      "Point array of OUT.vtp to colour the surface by [potential_difference, or displacement]");
   parser->add_option("--residues", a->options.residues,
                      "Column of OUT.residues.csv for the residues [mean_abs_difference, or mean_displacement]");
-  parser->add_option(
-      "--range", a->options.limit,
-      "End of the surface's colour scale, for signed values both ends; 0: covers 90 % of the values [0]");
+  add_rows(*parser, scale_settings(), a->options);
   add_range_of(*parser, a->range_of);
-  parser->add_option("--colours,--colors", a->options.colours, "Colour map of signed values [red-blue]")
-      ->check(CLI::IsMember({"red-blue", "cool-warm", "purple-orange"}));
   parser->add_option("--title", a->options.title, "Title; default: the names of both structures");
   set_help(*parser, {"",
                      {"espdiff export ldh --to glb -o ldh.glb", "espdiff export ldh --to pymol && pymol ldh.pymol.py",

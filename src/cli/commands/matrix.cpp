@@ -25,7 +25,7 @@ struct MatrixArguments {
   MatrixStudy study;
   bool quiet = false;
   StructureOptions structure;
-  DeviceArguments device;
+  ComputingOptions computing;
   GivenSettings settings;
 };
 
@@ -94,7 +94,7 @@ int matrix_verb(const MatrixArguments& a, const Context& context) {
   study.structure = a.structure;
   for (const VariantFiles& files : chosen_variants(a)) study.variants.push_back(item_of(a, files));
   study.run.read_files = {a.list, a.groups};
-  const std::unique_ptr<Engine> engine = make_engine(a.device);
+  const std::unique_ptr<Engine> engine = select_engine(a.computing);
   const MatrixReport report = run_matrix(study, *engine, *context.progress);
   if (!a.quiet) print_report(a, *engine, report);
   return 0;
@@ -119,7 +119,7 @@ Verb add_matrix(CLI::App& app) {
   parser->add_option("--map-array", a->map_array, "Array of VTI maps with several")->group("Potentials");
   add_rows(*parser, matrix_settings(), a->study);
   add_settings(*parser, a->settings, SettingsFor::kVariants);
-  add_device_options(*parser, a->device);
+  add_rows(*parser, computing_settings(), a->computing);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   set_help(
       *parser,

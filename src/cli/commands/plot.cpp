@@ -35,6 +35,22 @@ struct PlotArguments {
   bool both_ways = false, normalize = false, no_marks = false, causes = false, overwrite = false;
 };
 
+/// Its numbers and words.
+const std::vector<OptionRow<PlotArguments>>& plot_settings() {
+  using Rows = RowsOf<PlotArguments>;
+  static const std::vector<Rows::Row> all{
+      Rows::word(
+          "kind", "Comparison", {"bars", "scatter"}, [](auto& o) -> auto& { return o.kind; },
+          "Residues of a comparison as signed bars with both states, or as a scatter"),
+      Rows::count(
+          "top", "Comparison", {0, 100000}, [](auto& o) -> auto& { return o.top; },
+          "Number of residues as bars, those that differ most; 0 for all, in file order"),
+      Rows::word(
+          "order", "Heat map", {"given", "dendrogram"}, [](auto& o) -> auto& { return o.order; },
+          "Order of a heat map; dendrogram draws the clustering too")};
+  return all;
+}
+
 constexpr const char* kAngstrom = "\u00C5";
 
 /// Units as printed; fractions as percent.
@@ -318,23 +334,12 @@ Verb add_plot(CLI::App& app) {
                      "trajectory mean_abs_difference)");
   parser->add_option("--title", a->title, "Title of a plot of lines");
   parser->add_option("--field", a->field, "Residues of a comparison: a field in the place of the potential");
-  parser->add_option("--kind", a->kind, "Residues of a comparison as signed bars with both states, or as a scatter")
-      ->check(CLI::IsMember({"bars", "scatter"}))
-      ->capture_default_str()
-      ->group("Comparison");
-  parser->add_option("--top", a->top, "Number of residues as bars, those that differ most; 0 for all, in file order")
-      ->check(CLI::Range(0, 100000))
-      ->capture_default_str()
-      ->group("Comparison");
+  add_rows(*parser, plot_settings(), *a);
   parser
       ->add_flag(
           "--causes", a->causes,
           "The residues that make a comparison's difference, as bars for each of its readings (compare --causes)")
       ->group("Comparison");
-  parser->add_option("--order", a->order, "Order of a heat map; dendrogram draws the clustering too")
-      ->check(CLI::IsMember({"given", "dendrogram"}))
-      ->capture_default_str()
-      ->group("Heat map");
   parser->add_option("--range", a->range, "Ends of the colours (default: range off the diagonal)")
       ->expected(2)
       ->group("Heat map");

@@ -33,12 +33,11 @@ struct PotentialArguments {
   std::string molecule, output, variance, standard_error;
   std::string frames = "all";
   MapSeriesRequest map;
-  double temperature_K = PmeOptions().temperature_K;
   GivenPotentialSettings given;
   bool quiet = false, overwrite = false;
   GivenSettings settings;
   StructureOptions structure{1, true, true};
-  DeviceArguments device;
+  ComputingOptions computing;
 };
 
 void add_frame_options(CLI::App& p, PotentialArguments& a) {
@@ -160,7 +159,7 @@ class Frames {
 
 int potential_verb(PotentialArguments& a, const Context& context) {
   if (a.output.empty()) a.output = output_file(a.molecule, ".dx");
-  const PotentialOptions options = options_of(a.map, a.given, a.temperature_K);
+  const PotentialOptions options = options_of(a.map, a.given, make_options(a.settings).temperature_K);
   const auto start = std::chrono::steady_clock::now();
   context.progress->report("read", 0.0);
   const StructureFile file(a.molecule);
@@ -168,7 +167,7 @@ int potential_verb(PotentialArguments& a, const Context& context) {
   if (frames.size() < 2 && !(a.variance.empty() && a.standard_error.empty()))
     throw InputError("--variance and --standard-error need at least 2 frames; there is " +
                      std::to_string(frames.size()));
-  const std::unique_ptr<Engine> engine = make_engine(a.device);
+  const std::unique_ptr<Engine> engine = select_engine(a.computing);
   PotentialSeries series(*engine, options);
   Outputs outputs(a, frames);
   Frames states(a, file, *context.progress);
@@ -205,15 +204,11 @@ Verb add_potential(CLI::App& app) {
   parser->add_option("-o,--output,--dxfile", a->output,
                      "Map to write: .dx (APBS, VMD, PyMOL) or .vti (ParaView); MOLECULE.dx in the working folder");
   add_rows(*parser, map_series_settings(), a->map);
-  parser->add_option("--temperature", a->temperature_K, "Temperature of kT, K")
-      ->capture_default_str()
-      ->check(finite_number())
-      ->group("Method");
   add_potential_settings(*parser, a->given, true);
-  add_settings(*parser, a->settings, SettingsFor::kPreparation);
+  add_settings(*parser, a->settings, SettingsFor::kMap);
   add_frame_options(*parser, *a);
   add_structure_options(*parser, a->structure);
-  add_device_options(*parser, a->device);
+  add_rows(*parser, computing_settings(), a->computing);
   add_overwrite(*parser, a->overwrite);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   set_help(*parser, {"--output --method --select --ph --ligand --ionic-strength --pb-spacing --align --variance "

@@ -34,7 +34,7 @@ struct SurfaceArguments {
   bool quiet = false, overwrite = false;
   StructureOptions structure;
   PotentialRequest potential;
-  DeviceArguments device;
+  ComputingOptions computing;
   GivenSettings settings;
 };
 
@@ -99,7 +99,7 @@ int surface_verb(SurfaceArguments& a, const Context& context) {
     map = read_map(a.map, a.map_array, a.map_unit).grid;
     input.map = &map;
   }
-  const std::unique_ptr<Engine> engine = make_engine(a.device);
+  const std::unique_ptr<Engine> engine = select_engine(a.computing);
   const SurfaceResult result = make_surface(*engine, input, options, a.regularize, *context.progress);
   write_surface(surface, molecule, result, result.unit);
   std::vector<AtomicFile*> files = {&surface};
@@ -142,7 +142,7 @@ Verb add_surface(CLI::App& app) {
   add_computed_map_options(*parser, a->potential);
   add_structure_options(*parser, a->structure);
   add_settings(*parser, a->settings, SettingsFor::kSurface);
-  add_device_options(*parser, a->device);
+  add_rows(*parser, computing_settings(), a->computing);
   set_help(*parser,
            {"--output --overwrite --map --potential --select --ph --ligand --grid-spacing --regularize --threads",
             {"espdiff surface protein.pqr --map protein.dx --regularize -o surface.vtp",

@@ -21,33 +21,19 @@ namespace {
 /// What `espdiff trajectory` was called with.
 struct TrajectoryArguments {
   TrajectoryStudy study;
-  std::string reference = "source";
   bool quiet = false;
   MapArguments maps;
-  DeviceArguments device;
+  ComputingOptions computing;
   GivenSettings settings;
 };
 
 void add_run_options(CLI::App& p, TrajectoryArguments& a) {
-  const char* const group = "Frames";
   add_rows(p, trajectory_settings(), a.study.request);
-  p.add_option("--reference", a.reference, "Compare each frame with SOURCE, or with the frame before it")
-      ->check(CLI::IsMember({"source", "previous"}))
-      ->capture_default_str()
-      ->group(group);
+  add_rows(p, trajectory_file_settings(), a.study);
   p.add_option("--source-frames", a.study.source_frames,
                "Frames of SOURCE, in files as FRAMES: frame i is compared with frame i of these (trajectory against "
                "trajectory)")
-      ->group(group);
-  p.add_option("--frames-of", a.study.frames_of,
-               "Structure or topology whose atoms, charges and radii FRAMES have, where they are not SOURCE's")
-      ->group(group);
-  add_plugins_option(p, a.study.plugins, group);
-  p.add_option("--source-model", a.study.source_model,
-               "Model of a multi-model source file, from 1; with a topology as SOURCE, frame of the first trajectory")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str()
-      ->group("Molecules");
+      ->group("Frames");
 }
 
 constexpr std::size_t kPlotEnding = 4;
@@ -62,9 +48,7 @@ bool is_plot(const std::string& path) {
 int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
   check_map_options(a.maps);
   TrajectoryStudy study = a.study;
-  study.against_previous = a.reference == "previous";
-  study.source_map = with_given_map(a.maps, true);
-  study.target_map = with_given_map(a.maps, false);
+  study.maps = a.maps;
   study.potential = a.maps;
   study.options = make_options(a.settings);
   study.tell = [](const std::string& warning) { std::fprintf(stderr, "espdiff: %s\n", printable(warning).c_str()); };
@@ -75,7 +59,7 @@ int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
     if (!study.request.overwrite && !study.request.resume) check_outputs({}, {study.picture}, false);
   }
   const auto begun = std::chrono::steady_clock::now();
-  const std::unique_ptr<Engine> engine = make_engine(a.device);
+  const std::unique_ptr<Engine> engine = select_engine(a.computing);
   const TrajectorySummary summary = run_trajectory(study, *engine, *context.progress);
   if (!study.picture.empty()) plot_frames(table, study.picture);
   if (a.quiet) return 0;
@@ -119,7 +103,7 @@ Verb add_trajectory(CLI::App& app) {
   add_map_options(*parser, a->maps);
   add_structure_options(*parser, a->study.structure);
   add_settings(*parser, a->settings, SettingsFor::kPair);
-  add_device_options(*parser, a->device);
+  add_rows(*parser, computing_settings(), a->computing);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   set_help(*parser, {"--output --frames --resume --overwrite --select --potential --region --patch --offset --align "
                      "--domains --plugins --threads --quiet",

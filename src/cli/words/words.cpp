@@ -49,11 +49,6 @@ const CLI::App& chosen(const CLI::App& app) {
   return commands.empty() ? app : *commands.front();
 }
 
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
-  const std::string nearest = nearest_word(word, candidates);
-  return nearest.empty() ? "" : " (did you mean " + nearest + "?)";
-}
-
 /// Number of letters that are inserted, removed, replaced or exchanged with their neighbour.
 std::size_t changes_between(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
@@ -93,6 +88,11 @@ std::string left_over(const std::string& word, const CLI::App& app) {
 }
 
 }  // namespace
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
+  const std::string nearest = nearest_word(word, candidates);
+  return nearest.empty() ? "" : " (did you mean " + nearest + "?)";
+}
 
 std::vector<std::string> understood(std::vector<std::string> words, const CLI::App& app) {
   if (words.empty()) return words;

@@ -22,5 +22,7 @@ std::string help_command(const CLI::App& app);
 
 /// The candidate that is nearest to the word by changes of letters, at most a third of the word's; empty if none is.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
+/// " (did you mean coulomb?)", or nothing. @param candidates as of nearest_word()
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace espdiff::cli

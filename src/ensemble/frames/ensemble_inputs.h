@@ -13,6 +13,7 @@
 #include "ensemble/frames/given_maps.h"
 #include "ensemble/frames/replicate_request.h"
 #include "frames/frame_files.h"
+#include "io/frames/molfile_plugins.h"
 #include "mapping/input.h"
 #include "options/options.h"
 #include "potential/potential_plan.h"
@@ -39,7 +40,7 @@ std::vector<OptionRow<Study>> input_rows(At at) {
   return {
       Rows::text(
           "map-unit", group, [at](auto& o) -> auto& { return at(o).maps.unit; },
-          "Unit of given maps if the files do not give it: kT/e, mV, V, kcal/mol/e, hartree/e"),
+          "Unit of given maps if the files do not give it: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"),
       Rows::text(
           "map-array", group, [at](auto& o) -> auto& { return at(o).maps.array; },
           "Array of given VTI maps with several"),
@@ -52,10 +53,7 @@ std::vector<OptionRow<Study>> input_rows(At at) {
           "200, evenly spread); medoid:GROUP: among the group's frames; a number: that frame, counted from 0 through "
           "all groups; a structure file"),
       Rows::text(
-          "plugins", group, [at](auto& o) -> auto& { return at(o).plugins; },
-          "Folder of VMD's molfile plugins, which read trajectories and topologies (that of $VMDDIR, or of the `vmd` "
-          "on "
-          "PATH)")};
+          "plugins", group, [at](auto& o) -> auto& { return at(o).plugins; }, kMolfileFolderHelp)};
 }
 
 /// The frames of an ensemble. One file is in memory at a time, whatever the number of replicates.

@@ -33,6 +33,10 @@ const MolfileReader* find_molfile_reader(const std::string& folder, const std::s
 /// Whether a file's name ends as those of topologies and trajectories do that only VMD's readers, or MDAnalysis', read.
 bool needs_molfile_reader(const std::string& path);
 
+/// Of options that name the folder.
+constexpr const char* kMolfileFolderHelp =
+    "Folder of VMD's molfile plugins, which read trajectories and topologies (that of $VMDDIR, or of the `vmd` on "
+    "PATH)";
 /// How to get readers, for messages.
 extern const char* const kMolfileRemedy;
 

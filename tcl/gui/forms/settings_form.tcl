@@ -7,16 +7,16 @@ namespace eval ::espdiff::gui {
     array set standard {}
 
     # Small groups of the table share a page.
-    variable setting_pages {General {Molecules Potentials Computing Verdict} Input {Structures Charges Region Fields} Surface Surface
+    variable setting_pages {General {Molecules Potentials Computation Verdict} Input {Structures Charges Region Fields} Surface Surface
         {Salt water} {{Salt water}} Mapping {Mapping {Mapping by morph}} Deform {{Mapping by deform}} Regularization Regularization}
 
     # The core's settings and those of the commands that compute.
     proc all_settings {} {
         set rows [::espdiff::core::settings]
-        lappend rows [dict create name device group Computing kind choice choices [device_choices] default auto \
-            help "Where to compute: auto takes a GPU if one works"]
-        lappend rows {name threads group Computing kind integer choices {} default 0
-            help "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it"}
+        foreach row [::espdiff::core::study_settings computing] {
+            if {[dict get $row name] eq "device"} { dict set row choices [device_choices] }
+            lappend rows $row
+        }
         foreach row [::espdiff::core::potential_settings] {
             if {"pb" in [dict get $row of]} { lappend rows [dict merge $row {group "Salt water" potential pb}] }
         }
@@ -95,6 +95,7 @@ namespace eval ::espdiff::gui {
         }
         set widget(setting,$name) $path
         if {$name eq "field"} { set path [build_field_menu $path] }
+        if {$accepts ne ""} { append help "; $accepts" }
         form_row $page $grid_row [setting_label $name] $path "$help (default $default)" $column
     }
 

@@ -128,9 +128,9 @@ TEST_CASE("invalid device names and thread counts are refused") {
   for (const char* wrong : {"CPU", "", "cuda:", "cuda:x", "cuda:-1", "cuda: 1", "cuda:1 ", "cuda:99999", "cpu:0"})
     CHECK_THROWS_AS(espdiff::parse_device(wrong), espdiff::InputError);
   CHECK(message_of([] { espdiff::parse_device("gpu"); }) ==
-        "unknown device 'gpu'; use auto, cpu, cuda, or cuda:N for the GPU of that index");
+        "device: 'gpu' is not auto, cpu, cuda or cuda:N, the GPU of that index");
   CHECK(message_of([] { espdiff::select_engine(DeviceChoice::kCpu, -2); }) ==
-        "the number of threads, -2, is not between 0 (all) and 1024");
+        "threads: '-2' is not a whole number from 0 to 1024");
 }
 
 TEST_CASE("a handle of another kind is an internal error, not a crash") {
