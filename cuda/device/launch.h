@@ -65,8 +65,8 @@ inline auto on_device() {
 constexpr std::size_t kIndicesAtOnce = 64, kFewIndices = 4096;
 
 /// Calls body(i) for each i in [0, n) in parallel. Deterministic if no call writes what another reads or writes.
-/// @throws Cancelled once this thread's CancelRequest is made, but not within another such loop; what the bodies write is
-/// then unfinished
+/// @throws Cancelled once this thread's CancelRequest is made, but not within another such loop; what the bodies write
+/// is then unfinished
 template <typename Body>
 void for_each_index(std::size_t n, Body body) {
   if (n == 0) return;

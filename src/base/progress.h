@@ -22,8 +22,8 @@ class CancelRequest {
     if (made()) throw Cancelled();
   }
 
-  /// While it lives, its thread has no request: a loop within another loop's iteration may not throw, since no exception
-  /// may leave an iteration that threads share.
+  /// While it lives, its thread has no request: a loop within another loop's iteration may not throw, since no
+  /// exception may leave an iteration that threads share.
   class Withheld {
    public:
     Withheld() : flag_(of_thread()) { of_thread() = nullptr; }

@@ -82,13 +82,13 @@ void check_chirality(const PairedMolecules& pair, std::vector<Warning>& warnings
   }
   if (n_inverted == 0) return;
   const bool mirrored = static_cast<double>(n_inverted) > kMostInverted * static_cast<double>(n);
-  warnings.push_back({std::to_string(n_inverted) + " of " + std::to_string(n) +
-                          " paired residues have the opposite chirality (" + examples +
-                          (n_inverted > 3 ? ", ..." : "") + ")" +
-                          (mirrored ? ": one molecule is a mirror image, whole or in part, or its atoms are in another order than "
-                                      "their names (read a trajectory with the topology that it was written with)"
-                                    : ""),
-                      mirrored});
+  warnings.push_back(
+      {std::to_string(n_inverted) + " of " + std::to_string(n) + " paired residues have the opposite chirality (" +
+           examples + (n_inverted > 3 ? ", ..." : "") + ")" +
+           (mirrored ? ": one molecule is a mirror image, whole or in part, or its atoms are in another order than "
+                       "their names (read a trajectory with the topology that it was written with)"
+                     : ""),
+       mirrored});
 }
 
 /// Mean squared distance from the centroid.

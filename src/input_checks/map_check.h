@@ -24,7 +24,8 @@ constexpr std::size_t kReferenceKinds = 4;
 /// "salt water", "vacuum", ...
 const char* to_string(ReferenceKind kind);
 
-/// Right maps reach 0.97 and more, those of other molecules and places less (bench/study_notes.md, *Errors in given maps*).
+/// Right maps reach 0.97 and more, those of other molecules and places less (bench/study_notes.md, *Errors in given
+/// maps*).
 constexpr double kLeastMapCorrelation = 0.93;
 /// How far salt, dielectrics and boundaries take a slope in water from 1.
 constexpr double kSolventFactor = 2.5;

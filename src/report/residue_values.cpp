@@ -16,7 +16,7 @@
 namespace espdiff {
 namespace {
 
-constexpr const char* kShare = "share";
+constexpr const char* kShareOfArea = "share";
 
 /// NaN where a residue has no surface that is counted.
 std::vector<double> residue_shares(const CompareResult& result) {
@@ -47,7 +47,7 @@ std::vector<double> residue_contributions(const CompareResult& result) {
 }
 
 Metric find_quantity(const std::string& name, const CompareResult& result) {
-  std::string list = std::string(kShare) + ", " + kContribution;
+  std::string list = std::string(kShareOfArea) + ", " + kContribution;
   for (const Metric& metric : residue_metrics(result)) {
     if (metric.name == name) return metric;
     list += ", " + std::string(metric.name);
@@ -58,13 +58,13 @@ Metric find_quantity(const std::string& name, const CompareResult& result) {
 }  // namespace
 
 std::vector<std::string> residue_quantities() {
-  std::vector<std::string> names{kShare, kContribution};
+  std::vector<std::string> names{kShareOfArea, kContribution};
   for (const Metric& metric : residue_metrics({})) names.emplace_back(metric.name);
   return names;
 }
 
 void require_residue_quantity(const std::string& name, const std::vector<FieldRequest>& fields) {
-  if (name == kShare || name == kContribution) return;
+  if (name == kShareOfArea || name == kContribution) return;
   CompareResult like;
   for (const FieldRequest& request : fields) {
     like.fields.emplace_back().quantity.name = request.name;
@@ -78,7 +78,7 @@ std::string usual_residue_quantity(const CompareResult& result) {
 }
 
 std::vector<double> residue_values(const CompareResult& result, const std::string& quantity) {
-  if (quantity == kShare) return residue_shares(result);
+  if (quantity == kShareOfArea) return residue_shares(result);
   if (quantity == kContribution) return residue_contributions(result);
   const Metric metric = find_quantity(quantity, result);
   if (metric.section == MetricSection::kPotential && *metric.field == '\0' && !result.potential.compared)
@@ -89,7 +89,7 @@ std::vector<double> residue_values(const CompareResult& result, const std::strin
 }
 
 std::string residue_unit(const CompareResult& result, const std::string& quantity) {
-  if (quantity == kShare) return "";
+  if (quantity == kShareOfArea) return "";
   if (quantity == kContribution) return potential_unit_text(result);
   return unit_of(find_quantity(quantity, result), potential_unit_text(result));
 }

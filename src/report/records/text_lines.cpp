@@ -9,7 +9,7 @@
 namespace espdiff {
 namespace {
 
-constexpr std::size_t kLabelWidth = 35, kUnitWidth = 7, kColumnWidth = 14;
+constexpr std::size_t kLineLabelWidth = 35, kUnitWidth = 7, kColumnWidth = 14;
 
 std::string right(const std::string& text, std::size_t width) {
   return std::string(text.size() < width ? width - text.size() : 1, ' ') + text;
@@ -41,19 +41,19 @@ std::string share_of(double fraction) {
 
 void print_row(std::ostream& out, const std::string& label, const std::string& unit,
                const std::vector<std::string>& values) {
-  out << padded("  " + label, kLabelWidth) << padded(unit, kUnitWidth);
+  out << padded("  " + label, kLineLabelWidth) << padded(unit, kUnitWidth);
   for (const std::string& value : values) out << right(value, kColumnWidth);
   out << '\n';
 }
 
 void print_heading(std::ostream& out, const std::string& title, const std::vector<std::string>& columns) {
-  out << '\n' << padded(title, kLabelWidth + kUnitWidth);
+  out << '\n' << padded(title, kLineLabelWidth + kUnitWidth);
   for (const std::string& column : columns) out << right(column, kColumnWidth);
   out << '\n';
 }
 
 void print_line(std::ostream& out, const std::string& label, const std::string& text) {
-  out << padded("  " + label, kLabelWidth) << text << '\n';
+  out << padded("  " + label, kLineLabelWidth) << text << '\n';
 }
 
 void print_item(std::ostream& out, const std::string& text, std::size_t indent) {
