@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/citation.h"
+#include "base/text/citation.h"
 #include "io/files/write_csv.h"
 #include "page/page_surface.h"
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <map>
 
-#include "base/citation.h"
 #include "base/error.h"
+#include "base/text/citation.h"
 #include "io/files/read_csv.h"
 #include "io/files/read_input.h"
 #include "io/text/json_values.h"

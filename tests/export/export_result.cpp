@@ -233,7 +233,7 @@ TEST_CASE("a result that cannot be exported is refused in one line") {
   CHECK(contains(fails("--to glb --array none"), "has no point array 'none': there are potential_difference, "));
   CHECK(contains(fails("--to pdb --residues none"),
                  "has no column 'none': there are area, trusted_area_fraction, mean_abs_difference, "));
-  CHECK(contains(fails("--to glb --range -3"), "--range -3: give a positive number"));
+  CHECK(contains(fails("--to glb --range -3"), "--range: '-3' is not a number of 0 or more"));
   CHECK(contains(fails("--to pdb -o " + result.folder.file("a.pqr")), "a.pqr"));
   result.folder.write("a.pqr", row_of_atoms(8, 1));
   CHECK(contains(fails("--to pdb"), "a.pqr has changed since the comparison; compare again, or export the surface"));

@@ -8,8 +8,8 @@
 #include <regex>
 #include <string>
 
-#include "base/citation.h"
 #include "base/error.h"
+#include "base/text/citation.h"
 #include "base/version.h"
 #include "cli/run_espdiff.h"
 #include "io/vtk/read_vtp.h"

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "base/citation.h"
 #include "base/error.h"
+#include "base/text/citation.h"
 #include "base/version.h"
 #include "cli/run_espdiff.h"
 #include "page/browser.h"

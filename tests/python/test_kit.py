@@ -55,7 +55,7 @@ def test_one_version():
 def test_pages_cite_as_the_citation_file_does():
     cff = (REPOSITORY / "CITATION.cff").read_text()
     title, author = (re.search(pattern, cff, re.MULTILINE).group(1) for pattern in (r'^title: "(.*)"', r'^  - name: "(.*)"'))
-    source = (REPOSITORY / "src" / "base" / "citation.h").read_text()
+    source = (REPOSITORY / "src" / "base" / "text" / "citation.h").read_text()
     words = "".join(re.findall(r'"([^"\n]*)"', source.split("return")[1]))
     assert words == f"{author}. {title}. Version . Computer software."
 

@@ -19,8 +19,8 @@ namespace nb = nanobind;
 
 StatePtr prepare(const StatePtr& state, const Settings& settings, const nb::object& progress) {
   auto made = std::make_shared<State>();
-  // Any computed potential needs charges.
-  const Computation computation(settings, "pb", "auto", "auto", 0);
+  Computation computation(settings);
+  computation.potential.potential = "pb";  // any computed potential needs charges
   run(progress, [&](const Progress& told) {
     LoadedState loaded = loaded_alone(state, computation, told).loaded;
     check_left_out(computation.options.input, {&loaded});

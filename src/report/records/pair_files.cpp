@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/citation.h"
 #include "base/error.h"
+#include "base/text/citation.h"
 #include "base/text/formats.h"
 #include "io/files/read_input.h"
 #include "io/text/json_values.h"
