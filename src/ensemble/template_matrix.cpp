@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/molecule/backbone_trace.h"
 #include "compare/stages/readings.h"
 #include "engine/engine.h"
 #include "ensemble/ensemble_run.h"
@@ -107,6 +108,7 @@ EnsemblePlan plan_of(const MatrixPlan& matrix, const Template& chosen, const Tem
   plan.potential_unit = matrix.potential_unit;
   plan.template_name = chosen.name;
   plan.template_sha256 = sha256_of_template(chosen.molecule());
+  plan.template_backbone = to_text(backbone_trace(chosen.molecule()));
   EnsembleReplicate all{kAll, kAll, {}, {}, matrix.variants.size()};
   for (const MatrixPlan::Item& variant : matrix.variants) {
     Sha256 sum;

@@ -13,6 +13,7 @@
 #include "page/assembled_page.h"
 #include "page/ensemble_tables.h"
 #include "page/page_arrays.h"
+#include "page/page_molecule.h"
 #include "page/page_surface.h"
 #include "page/study_page.h"
 #include "plot/automatic_range.h"
@@ -161,6 +162,7 @@ EnsembleJson page_of(const EnsembleFiles& files, const std::string& title, PageA
   page["residues"] = residue_table(files.residues, names);
   page["provenance"] = ensemble_provenance(files.record);
   add_surface(page, arrays, files);
+  add_template_backbone(page, arrays, files.record);
   add_series(page, arrays, files);
   return page;
 }

@@ -16,4 +16,8 @@ namespace espdiff {
 /// @throws FormatError (OUT.json is damaged)
 void add_backbones(nlohmann::ordered_json& page, PageArrays& arrays, const std::string& prefix);
 
+/// The same of an ensemble's template, which the record's plan has.
+/// @param record OUT.json
+void add_template_backbone(nlohmann::ordered_json& page, PageArrays& arrays, const nlohmann::ordered_json& record);
+
 }  // namespace espdiff

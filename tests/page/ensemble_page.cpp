@@ -32,8 +32,9 @@ struct PlantedResult {
   ScratchFolder folder;
   std::string prefix = folder.file("planted");
   EnsembleResult result;
-  explicit PlantedResult(double effect, std::size_t n_mutants = 4) {
+  explicit PlantedResult(double effect, std::size_t n_mutants = 4, const std::string& backbone = "") {
     EnsemblePlan plan = planted_plan(4, n_mutants, 10);
+    plan.template_backbone = backbone;
     plan.residues = {"</script><b>ALA 1", "GLY 2"};
     plant_file(prefix + ".h5", plan, effect, 7);
     const EnsembleFile file(prefix + ".h5", false);
@@ -76,6 +77,25 @@ TEST_CASE("the verdict on a page is that of an answer where replicates suffice f
   const auto of_few = verdict(PlantedResult(6, 2));  // 15 permutations
   CHECK(contains(of_few.at("text").get<std::string>(), "NO CONCLUSION"));
   CHECK(of_few.at("trustworthy") == false);
+}
+
+TEST_CASE("an ensemble's page draws the template's backbone, or says why not") {
+  if (!can_draw()) return;
+  const auto page_with = [](const std::string& backbone) {
+    return nlohmann::json::parse(element(ensemble_page(PlantedResult(0, 4, backbone).prefix, ""), "record"));
+  };
+  const auto drawn = page_with("2: 0.00 0.00 0.00 0.00 0.00 1.00 3.80 0.00 0.00 0.00 1.00 0.00");
+  for (const char* side : {"source", "target"}) {
+    CHECK(drawn.at("backbone").at(side).at("chains") == nlohmann::json({2}));
+    CHECK(drawn.at("backbone").at(side).at("points").at("n") == 6);
+  }
+  for (const auto& [backbone, because] :
+       {std::pair("", "no molecule: the ensemble was computed by a version that did not keep it"),
+        {"2: 0 0 0", "no molecule: the trace of a backbone is damaged"}}) {
+    const auto without = page_with(backbone);
+    CHECK(!without.contains("backbone"));
+    CHECK(without.at("molecule_because") == because);
+  }
 }
 
 TEST_CASE("one group has a page of its mean, without patches and significance") {

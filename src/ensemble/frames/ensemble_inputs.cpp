@@ -8,6 +8,7 @@
 #include "align/geometry/superpose.h"
 #include "align/pair_atoms.h"
 #include "base/error.h"
+#include "base/molecule/backbone_trace.h"
 #include "base/version.h"
 #include "ensemble/frames/medoid.h"
 #include "ensemble/frames/template_choice.h"
@@ -264,6 +265,7 @@ void EnsembleInputs::choose_template(const std::string& text, bool skip_errors, 
     template_map_ = maker_of(template_);
   set_surface_radii({&template_.molecule}, options_.input.radii);
   plan_.template_sha256 = sha256_of_template(template_.molecule);
+  plan_.template_backbone = to_text(backbone_trace(template_.molecule));
 }
 
 CompareInput EnsembleInputs::source() const { return {&template_.molecule, nullptr, template_map_, {}}; }

@@ -133,6 +133,7 @@ std::string plan_text(const EnsemblePlan& plan) {
   json["potential"] = plan.potential;
   json["potential_unit"] = plan.potential_unit;
   json["template"] = {{"name", plan.template_name}, {"sha256", plan.template_sha256}};
+  if (!plan.template_backbone.empty()) json["template"]["backbone"] = plan.template_backbone;
   json["charges"] = Json::object();
   for (const auto& [group, from] : plan.charges) json["charges"][group] = from;
   json["replicates"] = Json::array();
@@ -168,6 +169,7 @@ EnsemblePlan parse_ensemble_plan(const std::string& text, const std::string& pat
     json.at("potential_unit").get_to(plan.potential_unit);
     json.at("template").at("name").get_to(plan.template_name);
     json.at("template").at("sha256").get_to(plan.template_sha256);
+    plan.template_backbone = json.at("template").value("backbone", std::string());
     for (const auto& [group, from] : json.at("charges").items()) plan.charges.emplace_back(group, from);
     for (const Json& r : json.at("replicates"))
       plan.replicates.push_back({r.at("group"), r.at("name"), r.at("files").get<std::vector<std::string>>(),

@@ -41,6 +41,7 @@ struct EnsemblePlan {
   std::string potential, potential_unit;
   std::string template_name;                                 ///< in words
   std::string template_sha256;                               ///< of its atoms: names, positions, radii
+  std::string template_backbone{};                           ///< its trace as text, for pages; no value depends on it
   std::vector<std::pair<std::string, std::string>> charges;  ///< group, and where its charges come from
   std::vector<EnsembleReplicate> replicates;                 ///< group by group
   std::vector<std::string> residues;                         ///< labels of the template's
