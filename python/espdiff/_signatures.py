@@ -107,6 +107,8 @@ def takes_options(function=None, *, groups=None, besides=(), without=()):
             near = difflib.get_close_matches(name, known, 1) if name not in known else []
             if near:
                 raise _core.InputError(f"{label}: there is no option {name}; did you mean {near[0]}?")
+        if "progress" in taken:
+            _checks.listener(named.get("progress"))
         return function(*arguments, **named)
 
     checked.__signature__ = signature.replace(parameters=own + extra + options)

@@ -174,7 +174,7 @@ def test_options_of_the_example(monkeypatch):
     module = example()
     words = "--cavities --potential pb --no-project --grid-spacing=1.5 --patch site=//A/8-12 --patch other=//A/3 --threads 2".split()
     assert module.settings(words) == {"cavities": True, "potential": "pb", "project": False, "grid_spacing": "1.5",
-                                      "patches": {"site": "//A/8-12", "other": "//A/3"}, "threads": 2}
+                                      "patches": {"site": "//A/8-12", "other": "//A/3"}, "threads": "2"}
     for words, text in ((["--nonsense", "1"], "--nonsense: espdiff matrix has no such option"), (["pb"], "pb: espdiff matrix"),
                         (["--potential"], "--potential needs a value")):
         with pytest.raises(SystemExit, match=text):

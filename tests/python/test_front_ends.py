@@ -266,7 +266,7 @@ def test_why_shapes_alone_were_compared(front_ends, files, tmp_path, monkeypatch
 # Tcl's. `regularize` is a switch of one command.
 OWN_FORMS = {
     "compare": {"progress"},
-    "surface": {"map", "map-unit", "progress", "regularize"},
+    "surface": {"map", "progress", "regularize"},
     "prepare": {"progress"},
     "potential": {"dxfile", "progress", "variance"},
     "matrix": {"groups", "output", "progress"},
