@@ -89,16 +89,21 @@ ESPDIFF_INLINE CellPosition locate(const CubicLattice& lattice, Vec3f p, int mar
 
 ESPDIFF_INLINE Quad mix(const Quad& a, const Quad& b, float t) { return a + t * (b - a); }
 
+/// Linear interpolation in the cell whose lowest corner is `v`, in a lattice of rows of nx and planes of nxy points.
+ESPDIFF_INLINE Quad mix_cell(const Vec4f* v, std::size_t nx, std::size_t nxy, float x, float y, float z) {
+  const auto along_x = [&](std::size_t row)
+                           ESPDIFF_INLINE_LAMBDA { return mix(quad_of(v[row]), quad_of(v[row + 1]), x); };
+  const Quad near_low = along_x(0), near_high = along_x(nx), far_low = along_x(nxy), far_high = along_x(nxy + nx);
+  return mix(mix(near_low, near_high, y), mix(far_low, far_high, y), z);
+}
+
 /// Trilinear interpolation; clamped at the border.
 ESPDIFF_INLINE Vec4f sample_trilinear(const CubicLattice& lattice, const Vec4f* values, Vec3f p) {
   const CellPosition at = locate(lattice, p, 0);
   const std::size_t nx = static_cast<std::size_t>(lattice.size[0]),
                     nxy = nx * static_cast<std::size_t>(lattice.size[1]);
   const Vec4f* const v = values + lattice.index(at.base[0], at.base[1], at.base[2]);
-  const auto along_x = [&](std::size_t row)
-                           ESPDIFF_INLINE_LAMBDA { return mix(quad_of(v[row]), quad_of(v[row + 1]), at.part[0]); };
-  const Quad near_low = along_x(0), near_high = along_x(nx), far_low = along_x(nxy), far_high = along_x(nxy + nx);
-  return vec4_of(mix(mix(near_low, near_high, at.part[1]), mix(far_low, far_high, at.part[1]), at.part[2]));
+  return vec4_of(mix_cell(v, nx, nxy, at.part[0], at.part[1], at.part[2]));
 }
 
 /// Catmull-Rom weights of the four points around t in [0, 1].
