@@ -66,8 +66,9 @@ GaussianAtoms::GaussianAtoms(const std::vector<Vec3d>& positions, const std::vec
       upper_[axis] = std::max(upper_[axis], p[axis]);
     }
   }
+  // Three cells a reach: smaller ones hold fewer atoms that are out of it.
   for (int axis = 0; axis < 3; ++axis)
-    size_[axis] = std::min<std::size_t>(200, static_cast<std::size_t>((upper_[axis] - lower_[axis]) / reach_) + 1);
+    size_[axis] = std::min<std::size_t>(200, static_cast<std::size_t>(3 * (upper_[axis] - lower_[axis]) / reach_) + 1);
   cells_.resize(size_[0] * size_[1] * size_[2]);
   for (std::size_t i = 0; i < positions_.size(); ++i) {
     const Vec3d& p = positions_[i];
@@ -157,16 +158,22 @@ vtkSmartPointer<vtkPolyData> GaussianAtoms::surface(double isovalue, double spac
       low[axis] = static_cast<int>(std::ceil((positions_[i][axis] - reach - origin[axis]) / spacing_A));
       high[axis] = static_cast<int>(std::floor((positions_[i][axis] + reach - origin[axis]) / spacing_A));
     }
-    for (int z = low[2]; z <= high[2]; ++z) {
-      for (int y = low[1]; y <= high[1]; ++y) {
-        for (int x = low[0]; x <= high[0]; ++x) {
-          const Vec3d d =
-              Vec3d{origin[0] + spacing_A * x, origin[1] + spacing_A * y, origin[2] + spacing_A * z} - positions_[i];
-          if (dot(d, d) <= reach * reach) {
-            const auto n = [](int k) { return static_cast<std::size_t>(k); };
-            values[n(x) + n(size[0]) * (n(y) + n(size[1]) * n(z))] += std::exp(-dot(d, d) / (2 * s2));
-          }
-        }
+    // A Gaussian is the product of its factors along the axes.
+    std::vector<double> square[3], factor[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = low[axis]; k <= high[axis]; ++k) {
+        const double d = origin[axis] + spacing_A * k - positions_[i][axis];
+        square[axis].push_back(d * d);
+        factor[axis].push_back(std::exp(-d * d / (2 * s2)));
+      }
+    }
+    for (std::size_t z = 0; z < square[2].size(); ++z) {
+      for (std::size_t y = 0; y < square[1].size(); ++y) {
+        const double left = reach * reach - square[1][y] - square[2][z], value = factor[1][y] * factor[2][z];
+        const auto n = [](int k) { return static_cast<std::size_t>(k); };
+        double* const row = values + n(low[0]) + n(size[0]) * (n(low[1]) + y + n(size[1]) * (n(low[2]) + z));
+        for (std::size_t x = 0; x < square[0].size(); ++x)
+          if (square[0][x] <= left) row[x] += factor[0][x] * value;
       }
     }
   }
