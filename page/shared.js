@@ -84,6 +84,8 @@ const Page = (() => {
     const verdict = byId('verdict');
     verdict.classList.toggle('refused', !record.verdict.trustworthy);
     add(verdict, 'strong', record.verdict.text);
+    const n = record.warnings.length;
+    if (n) add(verdict, 'span', n === 1 ? ', with a warning' : `, with ${n} warnings`);
     const parts = record.verdict.parts || [];
     for (const list of [record.verdict.reasons, parts, record.warnings]) {
       if (!list.length) continue;
