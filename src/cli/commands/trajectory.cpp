@@ -1,6 +1,7 @@
 // trajectory.cpp: `espdiff trajectory SOURCE FRAMES... -o OUT.csv`.
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <utility>
 
@@ -96,7 +97,7 @@ Verb add_trajectory(CLI::App& app) {
       ->required();
   parser
       ->add_option("-o,--output,--csv", a->study.request.csv,
-                   "CSV file that gets a row for each frame; OUT.png or OUT.svg "
+                   "CSV file that gets a row for each frame, OUT or OUT.csv; OUT.png or OUT.svg "
                    "draws the plot, too, beside OUT.csv")
       ->required();
   add_run_options(*parser, *a);
@@ -114,6 +115,8 @@ Verb add_trajectory(CLI::App& app) {
             if (is_plot(table)) {
               a->study.picture = table;
               table.replace(table.size() - kPlotEnding, kPlotEnding, ".csv");
+            } else if (std::filesystem::path(table).extension().empty()) {
+              table += ".csv";  // `report` and `plot` find it by this name
             }
             return trajectory_verb(*a, context);
           }};

@@ -107,8 +107,9 @@ TEST_CASE("trajectory: frames of several files, charges and radii from the sourc
   std::string files;
   for (int i = 0; i < 5; ++i) files += folder.write("f" + std::to_string(i) + ".pqr", pqr(0.5 * i)) + " ";
   CHECK(run_espdiff("trajectory " + source + " " + files + "--device cpu --method deform --potential pme -q -o " +
-                    folder.file("b.csv"))
+                    folder.file("b"))
             .status == 0);
+  CHECK(run_espdiff("report " + folder.file("b")).status == 0);
   for (const char* name : {"rmsd_A", "mean_abs_difference", "iterations"})
     CHECK(column(folder.file("a.csv"), name) == column(folder.file("b.csv"), name));
   // In the file's own cell another potential.
