@@ -17,6 +17,7 @@ namespace {
 constexpr double kRelativeOfMean = 2e-4;  ///< of a mean whose sign may cancel
 constexpr double kMediumSlip_A = 2, kLargeSlip_A = 3;
 constexpr double kLeastResidueArea_A2 = 5;
+constexpr double kLeastTrustedShare = 0.25;  // of a residue whose mapped mean is one of the residue
 
 void add_areas(const MappedFile& file, Lines& lines) {
   double mapped = 0, all = 0, matched = 0;
@@ -201,13 +202,14 @@ double deviation(const CsvTable& table, int at, const std::vector<double>& expec
   return largest / scale;
 }
 
-/// Pearson's over the residues whose own difference is known, weighted by the area that it rests on.
-double correlation(const CsvTable& table, int area, int weight, int own, int mapped) {
+/// Pearson's over the residues whose own difference is known and of which enough is trusted, weighted by the area that
+/// it rests on.
+double correlation(const CsvTable& table, int area, int trusted, int weight, int own, int mapped) {
   std::vector<std::array<double, 3>> values;
   double total = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto at = [&](int c) { return table.number(r, static_cast<std::size_t>(c)); };
-    if (!(at(area) >= kLeastResidueArea_A2) || !std::isfinite(at(own))) continue;
+    if (!(at(area) >= kLeastResidueArea_A2 && at(trusted) >= kLeastTrustedShare) || !std::isfinite(at(own))) continue;
     values.push_back({at(weight), at(own), at(mapped)});
     total += at(weight);
   }
@@ -353,9 +355,10 @@ void add_residue_lines(const MappedFile& file, const ResultRecord& record, const
   }
   if (!has_potential || residues_not_checked(record)) return;
   const int own = column(table, "own_difference"), own_area = column(table, "own_area"),
-            mapped = column(table, "mean_signed_difference"), of_area = column(table, "area");
-  if (own >= 0 && own_area >= 0 && mapped >= 0 && of_area >= 0)
-    lines.add("certificate/residues/correlation", correlation(table, of_area, own_area, own, mapped), 1e-4);
+            mapped = column(table, "mean_signed_difference"), of_area = column(table, "area"),
+            trusted = column(table, "trusted_area_fraction");
+  if (own >= 0 && own_area >= 0 && mapped >= 0 && of_area >= 0 && trusted >= 0)
+    lines.add("certificate/residues/correlation", correlation(table, of_area, trusted, own_area, own, mapped), 1e-4);
 }
 
 }  // namespace espdiff

@@ -85,16 +85,16 @@ ESPDIFF_INLINE void visit_disc(const CubicLattice& lattice, int k, Vec3f centre,
 /// must leave as they are, or give what all points may have.
 template <typename Each>
 ESPDIFF_INLINE void for_lanes(int i0, int i1, int n_in_row, Each each) {
-  constexpr int kLanes = 8;
-  const int width = (i1 - i0 + kLanes - 1) / kLanes * kLanes;
+  constexpr int kRowLanes = 8;
+  const int width = (i1 - i0 + kRowLanes - 1) / kRowLanes * kRowLanes;
   if (width > n_in_row) {
     for (int i = i0; i < i1; ++i) each(i);
     return;
   }
   const int first = std::min(i0, n_in_row - width);
-  for (int i = first; i < first + width; i += kLanes) {
+  for (int i = first; i < first + width; i += kRowLanes) {
 #pragma omp simd
-    for (int lane = 0; lane < kLanes; ++lane) each(i + lane);
+    for (int lane = 0; lane < kRowLanes; ++lane) each(i + lane);
   }
 }
 

@@ -137,8 +137,8 @@ EnsembleContents read_contents(const OpenFile& file, const std::string& path) {
     throw FormatError(path, 0,
                       values.name + " is of another size than the template" + kBeginAnew + switched_on("overwrite"));
   layout.values = std::move(values.chunks);
-  if (reader.has(kTrusted)) {
-    Hdf5Dataset trusted = reader.find(kTrusted);
+  if (reader.has(kTrustedVertices)) {
+    Hdf5Dataset trusted = reader.find(kTrustedVertices);
     if (trusted.item_bytes != 1 || trusted.chunk_items != layout.n_vertices || trusted.chunks.size() != layout.n_frames)
       throw FormatError(path, 0,
                         trusted.name + " is of another size than the template" + kBeginAnew + switched_on("overwrite"));

@@ -191,7 +191,7 @@ std::vector<WrittenDataset> write_by_hdf5(const std::string& place, const std::s
   for (const std::string& column : head.columns) names += (names.empty() ? "" : " ") + column;
   make.text_attribute("/espdiff/frame_numbers", "columns", names);
   const hsize_t n = head.surface.positions.size();
-  make.dataset(kTrusted, H5T_STD_U8LE, {n * head.n_frames}, nullptr,
+  make.dataset(kTrustedVertices, H5T_STD_U8LE, {n * head.n_frames}, nullptr,
                n);  // before the values: an end that is lost costs few
   make.dataset("/VTKHDF/PointData/potential", H5T_IEEE_F32LE, {n * head.n_frames}, nullptr, n);
   make.text_attribute("/VTKHDF/PointData/potential", "unit", head.unit);

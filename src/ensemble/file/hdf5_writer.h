@@ -17,7 +17,7 @@ struct TemplateSurface;
 
 /// Two: of plan and template, and of every byte but the frames'.
 inline constexpr const char* kHeadChecksum = "/espdiff/head_checksum";
-inline constexpr const char* kTrusted = "/VTKHDF/PointData/trusted";
+inline constexpr const char* kTrustedVertices = "/VTKHDF/PointData/trusted";
 inline constexpr std::size_t kNoteBytes = 200;
 
 /// Ends messages of files that cannot be used, before switched_on("overwrite").
