@@ -8,11 +8,12 @@ target_compile_options(espdiff_flags INTERFACE
   $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off -fvisibility=hidden -Wall -Wextra -Wpedantic -Wshadow>>
   $<BUILD_INTERFACE:$<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${ESPDIFF_WERROR}>>:-Werror>>)
 
-# espdiff_add_library(name SOURCES ... [LIBRARIES ...]): a static library for one room.
+# espdiff_add_library(name SOURCES ... [LIBRARIES ...]): a static library for one room. Loops that need -O3 are the engine's.
 function(espdiff_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_link_libraries(${name} PUBLIC espdiff_flags ${ARG_LIBRARIES} PRIVATE ${ARG_PRIVATE_LIBRARIES})
+  target_compile_options(${name} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:Release>>:-O2>)
 endfunction()
 
 # espdiff_combine(OUTPUT N SOURCE ...): sets OUTPUT to generated .cu files, of the binary folder, that include N sources of

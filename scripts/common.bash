@@ -19,6 +19,9 @@ job_count() {
   echo $((cores < by_memory ? cores : by_memory))
 }
 
+# How many tests may run at once: while one waits for a browser, a window or a file, another computes.
+test_count() { echo $(($(job_count) + 1)); }
+
 # Whether a GPU answers.
 has_gpu() { command -v nvidia-smi >/dev/null && nvidia-smi -L >/dev/null 2>&1; }
 
