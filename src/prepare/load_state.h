@@ -36,7 +36,7 @@ struct StateOrigin {
   std::vector<ChargeFile> charge_files;
 };
 
-/// A state as it is compared.
+/// A state that was read: its atoms selected, and with charges where they could be had.
 struct LoadedState : StateOrigin {
   Molecule molecule;  ///< has the surface; its charges count for pb and coulomb
   /// For pme in the file's cell: with water and ions. Empty unless the file or a topology has charges.

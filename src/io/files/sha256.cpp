@@ -79,8 +79,7 @@ __attribute__((target("sha,sse4.1"))) void compress_by_instructions(const std::u
   const __m128i big_endian = four(0x0c0d0e0f, 0x08090a0b, 0x04050607, 0x00010203);
   const auto load = [](const void* at) { return _mm_loadu_si128(static_cast<const __m128i*>(at)); };
   for (int k = 0; k < 4; ++k) words[k] = _mm_shuffle_epi8(load(block + 16 * k), big_endian);
-  // Unrolled, so that the words stay in registers.
-#pragma GCC unroll 16
+#pragma GCC unroll 16  // so that the words stay in registers
   for (std::size_t t = 0; t < 16; ++t) {
     __m128i& now = words[t % 4];
     if (t >= 4) {
