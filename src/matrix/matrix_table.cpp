@@ -109,7 +109,7 @@ void print_matrix(std::ostream& out, const Matrix& matrix, std::size_t metric) {
   out << matrix.n() << " variants, " << matrix.cells.size() << " ordered pairs";
   if (!matrix.plan.potential.empty()) out << ", potentials: " << matrix.plan.potential;
   if (matrix.through)
-    out << formatted("\nthrough one template: %s, %zu vertices, %.1f A2; pairs trust %.1f %% of it (least %.1f %%)",
+    out << formatted("\nthrough one template: %s, %zu vertices, %.1f A^2; pairs trust %.1f %% of it (least %.1f %%)",
                      matrix.through->name.c_str(), matrix.through->n_vertices, matrix.through->area_A2,
                      100 * matrix.through->mean_area_fraction, 100 * matrix.through->least_area_fraction);
   if (!matrix.plan.radii_note.empty()) out << "\n" << matrix.plan.radii_note;

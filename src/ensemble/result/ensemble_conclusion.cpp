@@ -15,12 +15,12 @@ std::string joined(const std::vector<std::string>& reasons) {
   return text;
 }
 
-/// "differ on 104.1 A2 of 1651.6 A2 tested, family-wise p <= 0.05; most at GLN 8 of chain A, by -1.181 kT/e (...)"
+/// "differ on 104.1 A^2 of 1651.6 A^2 tested, family-wise p <= 0.05; most at GLN 8 of chain A, by -1.181 kT/e (...)"
 std::string differences(const EnsembleResult& result, const std::string& unit) {
   const EnsemblePatch& patch = result.patches.front();
   const PlaceTests& t = result.patch_tests;
   return formatted(
-      " differ on %.1f A2 of %.1f A2 tested (family-wise p <= %g); the largest patch is at %s, by %.3f%s "
+      " differ on %.1f A^2 of %.1f A^2 tested (family-wise p <= %g); the largest patch is at %s, by %.3f%s "
       "(%.3f to %.3f)",
       result.significant_area_A2, result.tested_area_A2, result.options.alpha, patch.residues.front().first.c_str(),
       t.difference.front(), (unit.empty() ? "" : " " + unit).c_str(), t.low.front(), t.high.front());

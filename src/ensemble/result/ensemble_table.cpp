@@ -84,7 +84,7 @@ void print_fixed_patches(std::ostream& out, const EnsembleResult& result, const 
   const PlaceTests& t = result.fixed_patch_tests;
   for (std::size_t k = 0; k < result.fixed_patches.size(); ++k) {
     const FixedPatch& patch = result.fixed_patches[k];
-    out << formatted("  %-20.20s %8.1f A2", patch.name.c_str(), patch.area_A2);
+    out << formatted("  %-20.20s %8.1f A^2", patch.name.c_str(), patch.area_A2);
     for (std::size_t g = 0; g < result.groups.size(); ++g)
       out << formatted("  %.12s %s", result.groups[g].name.c_str(), value(patch.means[g]).c_str());
     if (result.compares)
@@ -113,13 +113,13 @@ void print_patches(std::ostream& out, const EnsembleResult& result, const std::s
     return;
   }
   out << formatted(
-      "\nsignificant: %.1f A2 of %.1f A2 tested (%.1f %%), family-wise p%s <= %.3g by %s; smallest possible p %.3g\n",
+      "\nsignificant: %.1f A^2 of %.1f A^2 tested (%.1f %%), family-wise p%s <= %.3g by %s; smallest possible p %.3g\n",
       result.significant_area_A2, result.tested_area_A2, 100 * result.significant_area_A2 / result.tested_area_A2,
       of_runs(result), result.options.alpha, result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t",
       result.test.smallest_p);
   if (result.patches.empty()) return;
   const std::string in_column = is_in_vacuum(unit) ? unit.substr(0, unit.size() - std::strlen(kInVacuum)) : unit;
-  out << formatted("%-6s %9s %12s %20s %8s  %s\n", "patch", "area (A2)", ("diff." + in_brackets(in_column)).c_str(),
+  out << formatted("%-5s %10s %12s %20s %8s  %s\n", "patch", "area (A^2)", ("diff." + in_brackets(in_column)).c_str(),
                    formatted("%.0f %% interval", confidence).c_str(), "p", "residues");
   constexpr std::size_t kMost = 10;
   for (std::size_t k = 0; k < std::min(kMost, result.patches.size()); ++k) {
@@ -142,12 +142,12 @@ void print_regression(std::ostream& out, const EnsembleResult& result, const std
   out << formatted("\nregression on %.40s of %zu replicates, %s%zu orders\n", regression.column.name.c_str(), n,
                    surface.exact ? "all " : "", surface.n_permutations);
   out << formatted("  predicted from the others: Q2 %.3f, p %.3g\n", surface.q2, surface.q2_p);
-  out << formatted("  significant: %.1f A2 of %.1f A2, family-wise p <= %.3g by %s; smallest possible p %.3g\n", area,
+  out << formatted("  significant: %.1f A^2 of %.1f A^2, family-wise p <= %.3g by %s; smallest possible p %.3g\n", area,
                    result.tested_area_A2, result.options.alpha,
                    result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t", surface.smallest_p);
   for (std::size_t k = 0; k < std::min<std::size_t>(10, regression.patches.size()); ++k) {
     const EnsembleRegression::Patch& patch = regression.patches[k];
-    out << formatted("  %-4zu %8.1f A2  r %6.3f  %.3g%s per unit, p %.3g  %.40s\n", k + 1, patch.patch.area,
+    out << formatted("  %-4zu %8.1f A^2  r %6.3f  %.3g%s per unit, p %.3g  %.40s\n", k + 1, patch.patch.area,
                      patch.correlation, patch.slope, (unit.empty() ? "" : " " + unit).c_str(), patch.smallest_p,
                      main_residues(patch.residues).c_str());
   }
@@ -174,7 +174,7 @@ void print_residues(std::ostream& out, const EnsembleResult& result) {
 
 void print_template_checks(std::ostream& out, const EnsembleResult& result) {
   if (result.template_checks.empty()) return;
-  out << formatted("\n%-54s %10s %10s %8s %14s\n", "through another template", "mean diff.", "area (A2)", "overlap",
+  out << formatted("\n%-54s %10s %10s %8s %14s\n", "through another template", "mean diff.", "area (A^2)", "overlap",
                    "largest change");
   for (const TemplateCheck& check : result.template_checks)
     out << formatted("  %-52.52s %10.3f %10.1f %8s %14s\n", check.template_name.c_str(), check.mean_abs_difference,
@@ -210,9 +210,9 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
                     const std::vector<std::string>& said) {
   const std::string& unit = file.plan().potential_unit;
   out << broken("conclusion   " + result.conclusion) << "\n\n";
-  out << formatted("template     %s, %zu vertices, %.1f A2\n", file.plan().template_name.c_str(), file.n_vertices(),
+  out << formatted("template     %s, %zu vertices, %.1f A^2\n", file.plan().template_name.c_str(), file.n_vertices(),
                    result.area_A2);
-  out << formatted("tested       %.1f A2 of it (%.0f %%), which at least %.0f %% of each group's frames trust\n",
+  out << formatted("tested       %.1f A^2 of it (%.0f %%), which at least %.0f %% of each group's frames trust\n",
                    result.tested_area_A2, std::floor(100 * result.tested_share()),
                    100 - 100 * result.options.most_missing);
   out << formatted(file.plan().field ? "field        %.70s\n" : "potential    %.70s\n", file.plan().potential.c_str());
