@@ -215,7 +215,7 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
   out << formatted("tested       %.1f A^2 of it (%.0f %%), which at least %.0f %% of each group's frames trust\n",
                    result.tested_area_A2, std::floor(100 * result.tested_share()),
                    100 - 100 * result.options.most_missing);
-  out << formatted(file.plan().field ? "field        %.70s\n" : "potential    %.70s\n", file.plan().potential.c_str());
+  out << broken((file.plan().field ? "field        " : "potential    ") + file.plan().potential) << '\n';
   if (result.n_together > 1)
     out << formatted("family       p is family-wise over the surfaces of %zu fields together\n", result.n_together);
   if (result.compares && result.test.inference == Inference::kReplicates)
