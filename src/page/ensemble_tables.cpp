@@ -47,7 +47,7 @@ TableJson test_rows(const TableJson& record, const EnsembleNames& names) {
   add_row(rows, "Mean absolute difference with exchanged labels", "Median: what chance makes of these simulations",
           with_unit(short_number(test, "mean_abs_difference_exchanged"), names.unit));
   add_row(rows, "Significant area", "Patches within the family-wise error",
-          short_number(test, "significant_area_A2") + " A2, " + percent(test, "significant_area_fraction"));
+          short_number(test, "significant_area_A2") + " A^2, " + percent(test, "significant_area_fraction"));
   add_row(rows, "Smallest possible p", "More replicates lower it; more frames do not",
           short_number(test, "smallest_p"));
   if (const auto why = test.find("no_p_because"); why != test.end() && why->is_string())
@@ -87,7 +87,7 @@ TableJson fixed_patch_rows(const TableJson& record, const EnsembleNames& names) 
     for (const auto& [group, mean] : patch.at("means").items())
       means += (means.empty() ? "" : ", ") + group + ' ' + short_number(patch.at("means"), group.c_str());
     const std::string difference = interval(patch, names);
-    add_row(rows, name, short_number(patch, "area_A2") + " A2; means: " + means,
+    add_row(rows, name, short_number(patch, "area_A2") + " A^2; means: " + means,
             difference == kMissing ? means : difference + ", p " + short_number(patch, "p", 2));
   }
   return rows;
@@ -111,7 +111,7 @@ TableJson template_rows(const TableJson& record) {
   for (const TableJson& check : record.value("template_check", TableJson::array()))
     add_row(rows, "Through " + check.at("template").get<std::string>(),
             "Significant area, and its share that both templates mark",
-            short_number(check, "significant_area_A2") + " A2, " + percent(check, "overlap"));
+            short_number(check, "significant_area_A2") + " A^2, " + percent(check, "overlap"));
   return rows;
 }
 
@@ -194,9 +194,9 @@ TableJson number_sections(const TableJson& record, const EnsembleNames& names) {
   add_rows(sections, "Regression", regression_rows(record));
   add_rows(sections, "Other templates", template_rows(record));
   TableJson surface = TableJson::array();
-  add_row(surface, "Area", "Of the template's surface", with_unit(short_number(record, "area_A2"), "A2"));
+  add_row(surface, "Area", "Of the template's surface", with_unit(short_number(record, "area_A2"), "A^2"));
   add_row(surface, "Tested area", "Where enough frames of each group trust the mapping",
-          with_unit(short_number(record, "tested_area_A2"), "A2") + ", " + percent(record, "tested_area_fraction"));
+          with_unit(short_number(record, "tested_area_A2"), "A^2") + ", " + percent(record, "tested_area_fraction"));
   add_rows(sections, "Surface", std::move(surface));
   return sections;
 }
@@ -231,7 +231,7 @@ TableJson patch_rows(const TableJson& record, const EnsembleNames& names) {
     TableJson residues = TableJson::array();
     for (const TableJson& one : patch.at("residues"))
       residues.push_back(one.at("residue").get<std::string>() + ' ' + percent(one, "share"));
-    rows.push_back({{"area", short_number(patch, "area_A2") + " A2"},
+    rows.push_back({{"area", short_number(patch, "area_A2") + " A^2"},
                     {"difference", interval(patch, names)},
                     {"p", short_number(patch, "smallest_p")},
                     {"residues", std::move(residues)}});
@@ -250,10 +250,10 @@ TableJson residue_table(const CsvTable& table, const EnsembleNames& names) {
                           {"low", names.filled("Lower end of the {confidence} % interval"), true, false},
                           {"high", names.filled("Upper end of the {confidence} % interval"), true, false},
                           {"p_false_discovery", "p, adjusted for the false discovery rate", false, true},
-                          {"significant_area_A2", "Significant area [A2]", false, true},
+                          {"significant_area_A2", "Significant area [A^2]", false, true},
                           {"t", "t", false, false},
                           {"p", "p", false, false},
-                          {"area_A2", "Area [A2]", false, false}};
+                          {"area_A2", "Area [A^2]", false, false}};
   const std::size_t residue = table.require("residue");
   TableJson columns = TableJson::array(), labels = TableJson::array(), rows = TableJson::array();
   std::vector<std::size_t> places;

@@ -227,6 +227,27 @@ TEST_CASE("a single run of few effective samples is no sample of a state") {
   CHECK(result.not_equilibrium[0].find("wild has one replicate, of ") == 0);
 }
 
+TEST_CASE("replicates of few effective samples are one warning, which names the one of fewest") {
+  const ScratchFolder folder;
+  const auto warning_of = [&](const char* name, const EnsemblePlan& plan) {
+    plant_file(folder.file(name), plan, -1, 14);
+    const EnsembleResult result = analyse_ensemble(EnsembleFile(folder.file(name), false), {});
+    const auto fewest = std::min_element(result.replicates.begin(), result.replicates.end(),
+                                         [](const auto& a, const auto& b) { return a.effective < b.effective; });
+    std::vector<std::string> found;
+    for (const std::string& warning : result.warnings)
+      if (warning.find("effective samples") != std::string::npos) found.push_back(warning);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].find("replicate " + fewest->name + " of " + fewest->group) != std::string::npos);
+    return found[0];
+  };
+  CHECK(warning_of("all.h5", planted_plan(4, 4, 12)).find("8 of 8 replicates have fewer than 20 effective samples ") ==
+        0);
+  EnsemblePlan plan = planted_plan(4, 4, 100);
+  plan.replicates[5].n_frames = 12;
+  CHECK(warning_of("one.h5", plan).find("replicate ") == 0);
+}
+
 TEST_CASE("the conclusion comes first, and p only where something can be concluded") {
   const ScratchFolder folder;
   const auto answer = [&](const char* name, const EnsemblePlan& plan, double effect) {

@@ -382,6 +382,28 @@ struct Analysis {
     }
   }
 
+  /// One warning for all of them: the table has each number.
+  void warn_of_short_replicates() {
+    const ReplicateSummary* fewest = nullptr;
+    std::size_t n_short = 0;
+    for (const ReplicateSummary& r : result.replicates) {
+      if (r.effective >= kFewEffective) continue;
+      ++n_short;
+      if (fewest == nullptr || r.effective < fewest->effective) fewest = &r;
+    }
+    if (n_short == 0) return;
+    const std::string name = "replicate " + fewest->name + " of " + fewest->group;
+    result.warnings.push_back(
+        n_short == 1
+            ? formatted(
+                  "%s has %.0f effective samples (median over the surface), fewer than %.0f: its mean may not have "
+                  "converged",
+                  name.c_str(), fewest->effective, kFewEffective)
+            : formatted("%zu of %zu replicates have fewer than %.0f effective samples (median over the surface), the "
+                        "fewest, %.0f, %s: their means may not have converged",
+                        n_short, result.replicates.size(), kFewEffective, fewest->effective, name.c_str()));
+  }
+
   void warn() {
     const std::string design = design_warning(plan());
     if (!design.empty()) result.warnings.push_back(design);
@@ -389,13 +411,7 @@ struct Analysis {
       result.warnings.push_back(
           "an earlier version made the file, which does not say where its frames trust the mapping: all that has a "
           "counterpart counts as trusted");
-    for (const ReplicateSummary& r : result.replicates) {
-      if (r.effective >= kFewEffective) continue;
-      result.warnings.push_back(formatted(
-          "replicate %s of %s has %.0f effective samples (median over the surface), fewer than %.0f: its mean "
-          "may not have converged",
-          r.name.c_str(), r.group.c_str(), r.effective, kFewEffective));
-    }
+    warn_of_short_replicates();
     constexpr double kLeastTested = 0.5;  // as a pair needs, by default, to be trustworthy on a part
     if (result.tested_share() < kLeastTested)
       result.warnings.push_back(formatted(
