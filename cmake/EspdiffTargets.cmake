@@ -32,8 +32,8 @@ function(espdiff_combine output n)
   set(${output} ${combined} PARENT_SCOPE)
 endfunction()
 
-# espdiff_optimize_little(target ...): what takes longer to compile than it ever runs: options, commands, reports, tests,
-# and what drives the comparisons of a matrix or of a trajectory.
+# espdiff_optimize_little(target ...): what takes longer to compile than it ever runs: options, commands, reports, pictures,
+# tests, and what drives the comparisons of a pair, a matrix, a trajectory or an ensemble.
 function(espdiff_optimize_little)
   foreach(target ${ARGN})
     target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:Release>>:-O1>)
