@@ -2,6 +2,7 @@
 #include "whole_runs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/progress.h"
@@ -59,6 +60,26 @@ void pme(StageTimer& timer, espdiff::Engine& engine, std::size_t n_atoms, double
   timer.counters["atoms"] = static_cast<double>(n_atoms);
 }
 
+/// A map's samples by B-splines at the n^3 points of a lattice that is not its own.
+void pme_samples(StageTimer& timer, espdiff::Engine& engine, int order, int n) {
+  constexpr double kEdge_A = 80;
+  const RandomCharges of = random_charges(50000, kEdge_A);
+  espdiff::PmeOptions options;
+  options.order = order;
+  options.smooth_samples = true;
+  options.size = {80, 80, 80};
+  const espdiff::GridPtr map = engine.pme_potential(of.positions, of.charges, of.cell, options, {}, {});
+  espdiff::Lattice lattice;
+  lattice.size = {n, n, n};
+  for (int axis = 0; axis < 3; ++axis) lattice.step[static_cast<std::size_t>(axis)][axis] = kEdge_A / n;
+  espdiff::GridPtr samples;
+  timer.time(engine, [&] { samples = engine.resample(map, lattice); });
+  timer.counters["samples"] = static_cast<double>(lattice.n_points());
+  double sum = 0;
+  for (const float value : engine.download(samples).values) sum += std::fabs(value);
+  timer.counters["mean_magnitude"] = sum / static_cast<double>(lattice.n_points());
+}
+
 /// A cube of n^3 points that leaves 12 A around a molecule, by the default options but for a wider grid.
 void poisson_boltzmann(StageTimer& timer, espdiff::Engine& engine, const std::string& file, int n) {
   constexpr double kPadding_A = 12;
@@ -90,6 +111,9 @@ std::vector<WholeRun> whole_runs() {
   std::vector<WholeRun> all{
       {"pme_50k/80", [](StageTimer& t, espdiff::Engine& e) { pme(t, e, 50000, 80, 80); }, false},
       {"pme_1m/216", [](StageTimer& t, espdiff::Engine& e) { pme(t, e, 1000000, 216, 216); }, false},
+      {"pme_samples_1m/order_4", [](StageTimer& t, espdiff::Engine& e) { pme_samples(t, e, 4, 100); }, false},
+      {"pme_samples_1m/order_6", [](StageTimer& t, espdiff::Engine& e) { pme_samples(t, e, 6, 100); }, false},
+      {"pme_samples_1m/order_8", [](StageTimer& t, espdiff::Engine& e) { pme_samples(t, e, 8, 100); }, false},
   };
   const std::string lysozyme = data_folder() + "/pair_t4l_maps/3lzm.pqr";
   if (std::filesystem::exists(lysozyme)) {

@@ -79,7 +79,7 @@ char* allocate(std::size_t n_bytes) {
     d.untouched += taken;
   }
   std::memset(view(start), kCanary, taken);
-  std::memset(view(start) + kRedZone, settings().fill, n_bytes);
+  std::memset(view(start) + kRedZone, kNewMemory, n_bytes);
   mark_allocated(start + kRedZone, n_bytes);
   d.allocations[start + kRedZone] = {n_bytes, taken};
   d.n_bytes += n_bytes;

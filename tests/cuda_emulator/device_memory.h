@@ -27,7 +27,9 @@ T* view(T* place) {
              : place;
 }
 
-/// Null where the device is full. What is got is filled with the byte of the settings.
+constexpr int kNewMemory = 0xAB;  ///< in each byte of memory that was just given, so that a read of it shows
+
+/// Null where the device is full.
 char* allocate(std::size_t n_bytes);
 
 /// Fails where nothing is allocated there, or something wrote beside the allocation.

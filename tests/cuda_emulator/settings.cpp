@@ -22,10 +22,6 @@ Settings read_settings() {
     const std::string name = word.substr(0, equals);
     if (name == "check")
       settings.check = true;
-    else if (name == "reverse")
-      settings.reverse = true;
-    else if (name == "eager")
-      settings.eager = true;
     else if (name == "no-pools")
       settings.pools = false;
     else if (name == "others")
@@ -40,14 +36,12 @@ Settings read_settings() {
       settings.n_devices = static_cast<int>(value);
     else if (name == "lost")
       settings.lost = static_cast<std::size_t>(value);
-    else if (name == "fill")
-      settings.fill = static_cast<int>(value);
     else if (name == "memory")
       settings.memory = static_cast<std::size_t>(value) << 20;
     else
       fail(
-          "ESPDIFF_CUDA_EMULATOR: '%s' is none of check, reverse, eager, no-pools, no-driver, exclusive, count, "
-          "devices=N, fill=BYTE, memory=MIB, others=MIB, lost=N",
+          "ESPDIFF_CUDA_EMULATOR: '%s' is none of check, no-pools, no-driver, exclusive, count, devices=N, "
+          "memory=MIB, others=MIB, lost=N",
           word.c_str());
   }
   return settings;

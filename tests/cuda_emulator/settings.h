@@ -8,11 +8,8 @@ namespace cuda_emulator {
 
 struct Settings {
   bool check = false;    ///< "check": each access to memory is examined (memory_checks.h)
-  bool reverse = false;  ///< "reverse": the last block, warp and thread goes first, where the order is free
-  bool eager = false;    ///< "eager": what is put into a stream is done at once, instead of when it is waited for
   bool pools = true;     ///< "no-pools": the device has none
   int n_devices = 1;     ///< "devices=N"
-  int fill = 0xAB;       ///< "fill=BYTE": what new memory is filled with
   std::size_t memory = std::size_t{16} << 30;  ///< "memory=MIB": all of a device's
   std::size_t others = 0;                      ///< "others=MIB": of that, what other processes hold
   bool driver = true;                          ///< "no-driver": none is installed

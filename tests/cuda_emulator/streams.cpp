@@ -4,7 +4,6 @@
 #include <set>
 
 #include "device_memory.h"
-#include "settings.h"
 
 namespace cuda_emulator {
 namespace {
@@ -25,7 +24,6 @@ void Stream::put(Work work) {
     return;
   }
   waiting.push_back(std::move(work));
-  if (settings().eager) finish();
 }
 
 void Stream::finish() {

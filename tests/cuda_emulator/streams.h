@@ -1,4 +1,4 @@
-// streams.h: what a program puts into CUDA streams, done when it waits for it (or at once: settings().eager).
+// streams.h: what a program puts into CUDA streams, done when it waits for it.
 //
 // Late is what a GPU may do as well: a program that gives a kernel memory and takes it back too early shows it here.
 #pragma once

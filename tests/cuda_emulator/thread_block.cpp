@@ -206,7 +206,7 @@ bool run_warp(Fiber* warp, unsigned n) {
   bool ran = false;
   do {
     for (unsigned k = 0; k < n; ++k) {
-      Fiber& fiber = warp[settings().reverse ? n - 1 - k : k];
+      Fiber& fiber = warp[k];
       if (fiber.state != State::kReady) continue;
       current = &fiber;
       cuda_emulator_switch(&scheduler_stack, fiber.stack_pointer);
@@ -230,7 +230,7 @@ void run_fibers(unsigned n) {
   for (;;) {
     bool ran = false;
     for (unsigned k = 0; k < n_warps; ++k) {
-      const unsigned first = (settings().reverse ? n_warps - 1 - k : k) * kWarp;
+      const unsigned first = k * kWarp;
       ran |= run_warp(&fibers[first], std::min(kWarp, n - first));
     }
     const auto end = fibers.begin() + n;
@@ -263,11 +263,8 @@ void run_grid(const Kernel& kernel, Index3 grid, Index3 block, std::uint32_t dyn
   kernel_parameters = parameters;
   if (fibers.size() < n) fibers.resize(n);
   if (checking) begin_launch(!kernel.meets_others);
-  // Threads that wait for an earlier block (a scan with look-back) count on its having started.
-  const bool backwards = settings().reverse && !kernel.meets_others;
-  for (std::uint64_t k = 0; k < n_blocks; ++k) {
-    const std::uint64_t b = backwards ? n_blocks - 1 - k : k;
-    std::memset(shared.get(), settings().fill,
+  for (std::uint64_t b = 0; b < n_blocks; ++b) {
+    std::memset(shared.get(), kNewMemory,
                 std::min<std::size_t>(kernel.shared_bytes + dynamic_shared_bytes + 128, kSharedBytes));
     Thread thread;
     thread.block_size = block;
@@ -276,8 +273,7 @@ void run_grid(const Kernel& kernel, Index3 grid, Index3 block, std::uint32_t dyn
                     static_cast<std::uint32_t>(b / grid.x / grid.y)};
     thread.dynamic_shared_bytes = dynamic_shared_bytes;
     thread.shared = shared.get();
-    for (unsigned j = 0; j < n; ++j) {
-      const unsigned i = backwards ? n - 1 - j : j;
+    for (unsigned i = 0; i < n; ++i) {
       thread.index = i;
       thread.thread = {i % block.x, i / block.x % block.y, i / (block.x * block.y)};
       if (kernel.meets_others) {

@@ -67,6 +67,11 @@ TEST_CASE("running out of memory is a memory error that says how much was reques
   facts.free_bytes = 1 << 19;
   const std::string little = words_for(cudaErrorMemoryAllocation, ErrorClass::kMemory, facts);
   CHECK(little.find("another 300.0 MiB (computing): 0.5 MiB of its 8.00 GiB") != std::string::npos);
+  // Seen on a card whose memory another program held: the first kernel could not be loaded.
+  facts.asked_bytes = facts.free_bytes = 0;
+  CHECK(words_for(cudaErrorMemoryAllocation, ErrorClass::kMemory, facts) ==
+        "cuda:1 (NVIDIA Test) is full (computing): 0.0 MiB of its 8.00 GiB are free; end other programs that hold "
+        "memory there (nvidia-smi lists them), use another GPU (device cuda:N), or device cpu");
 }
 
 TEST_CASE("a GPU without code in this build: the message says which code there is, and how to add it") {
