@@ -24,7 +24,7 @@ namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
 /// Minimum number of steps if atoms fade or widths change, which moves the surface too.
-constexpr int kStepsOfFading = 24;
+constexpr int kStepsOfFading = 16;
 /// Minimum number of steps: flow and level set are followed to second order only.
 constexpr int kLeastSteps = 8;
 /// Rounds of smoothing at the end, after the atoms have stopped.

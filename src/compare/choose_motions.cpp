@@ -53,7 +53,7 @@ MappedStep keep(MappedStep kept, const MappedStep& other, const StatesToMap& sta
 bool slips(const MappedStep& step, const StatesToMap& states) { return !reasons_of_slip(step, states).empty(); }
 
 bool will_slip(const StatesToMap& states, const CommonFrame& frame) {
-  // Atoms that fade need 24 steps anyway: where the farthest one needs no more than about 45, long steps save little.
+  // Atoms that fade need 16 steps anyway: where the farthest one needs no more than about 45, long steps save little.
   constexpr double kFar_A = 10, kShare = 0.01, kFarthest_A = 16;
   const auto& pairs = states.alignment.pairing.pairs;
   std::size_t n_far = 0;

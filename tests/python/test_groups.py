@@ -127,10 +127,12 @@ def test_atomgroups_have_the_numbers_of_files(whole):
     # MDAnalysis rounds coordinates to float32.
     for name in groups:
         assert result.means[name].shape == whole[0].means[name].shape
-        np.testing.assert_allclose(result.means[name], whole[0].means[name], rtol=0.01, atol=0.5)
-        tested = np.isfinite(whole[0].means[name])  # where the frames trust the mapping
+        ours, theirs = result.means[name], whole[0].means[name]
+        tested = np.isfinite(ours) & np.isfinite(theirs)  # where the frames trust the mapping
         assert tested.mean() > 0.3
-        assert np.abs(result.means[name] - whole[0].means[name])[tested].mean() < 0.005  # of values of 50 in vacuum
+        assert (np.isfinite(ours) == np.isfinite(theirs)).mean() > 0.995  # trust has limits, which a rounded atom can cross
+        np.testing.assert_allclose(ours[tested], theirs[tested], rtol=0.01, atol=0.5)
+        assert np.abs(ours - theirs)[tested].mean() < 0.005  # of values of 50 in vacuum
 
 
 def test_mda_ensemble_in_processes(whole, request, tmp_path):

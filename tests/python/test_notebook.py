@@ -26,7 +26,7 @@ def test_the_notebook_runs(monkeypatch, capsys):
     cells = ["".join(cell["source"]) for cell in json.loads(NOTEBOOK.read_text())["cells"] if cell["cell_type"] == "code"]
     names = {}
     pair, residues, wrong, again, matrix = (shown(cell, names) for cell in cells)
-    assert "TRUSTWORTHY ON 58 %: mean absolute difference 0.5948" in pair and "data:image/png" in pair
+    assert "TRUSTWORTHY ON 58 %: mean absolute difference 0.595" in pair and "data:image/png" in pair
     assert "LYS" in residues and "1.57" in residues
     assert wrong == "" and "there is no option ofset; did you mean offset?" in capsys.readouterr().out
     assert again.startswith("(True, 'TRUSTWORTHY")
