@@ -135,14 +135,16 @@ void throw_cuda_error(cudaError_t status, const std::string& doing, const CudaFa
   const std::string device = facts.device.empty() ? "the GPU" : facts.device;
   const std::string words = std::string(cudaGetErrorName(status)) + ", " + cudaGetErrorString(status);
   if (status == cudaErrorMemoryAllocation) {
-    // The runtime itself asks for memory that it does not tell of, for a kernel's code.
+    // The runtime takes memory of its own, for a kernel's code, and does not say how much.
     const bool is_ours = facts.asked_bytes > 0;
-    throw MemoryError(device + (is_ours ? " has no room for another " + memory_text(facts.asked_bytes) : " is full") +
-                      " (" + doing + "): " + memory_text(facts.free_bytes) + " of its " +
-                      memory_text(facts.total_bytes) + " are free; " +
-                      (is_ours ? "use a larger grid spacing or fewer atoms, another GPU ("
-                               : "end other programs that hold memory there (nvidia-smi lists them), use another GPU (") +
-                      option("device", "cuda:N") + "), or " + option("device", "cpu"));
+    const std::string full = is_ours ? "has no room for another " + memory_text(facts.asked_bytes) : "is full",
+                      remedy =
+                          is_ours
+                              ? "use a larger grid spacing or fewer atoms, another GPU"
+                              : "end other programs that hold memory there (nvidia-smi lists them), use another GPU";
+    throw MemoryError(device + " " + full + " (" + doing + "): " + memory_text(facts.free_bytes) + " of its " +
+                      memory_text(facts.total_bytes) + " are free; " + remedy + " (" + option("device", "cuda:N") +
+                      "), or " + option("device", "cpu"));
   }
   if (status == cudaErrorNoDevice) throw DeviceError("no NVIDIA GPU was found; use " + option("device", "cpu"));
   if (status == cudaErrorInsufficientDriver || status == cudaErrorStubLibrary ||

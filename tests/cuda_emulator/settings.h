@@ -7,9 +7,9 @@
 namespace cuda_emulator {
 
 struct Settings {
-  bool check = false;    ///< "check": each access to memory is examined (memory_checks.h)
-  bool pools = true;     ///< "no-pools": the device has none
-  int n_devices = 1;     ///< "devices=N"
+  bool check = false;                          ///< "check": each access to memory is examined (memory_checks.h)
+  bool pools = true;                           ///< "no-pools": the device has none
+  int n_devices = 1;                           ///< "devices=N"
   std::size_t memory = std::size_t{16} << 30;  ///< "memory=MIB": all of a device's
   std::size_t others = 0;                      ///< "others=MIB": of that, what other processes hold
   bool driver = true;                          ///< "no-driver": none is installed
