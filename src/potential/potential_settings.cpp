@@ -2,6 +2,7 @@
 #include "potential/potential_settings.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "base/error.h"
 #include "mapping/map_recipe.h"
@@ -217,6 +218,28 @@ std::string potential_in_words(const PotentialOptions& options) {
     if (!value.empty()) words += " " + setting.key + " " + value;
   }
   return words;
+}
+
+std::string short_potential(const std::string& words) {
+  std::istringstream text(words);
+  std::string method, key, value;
+  text >> method;
+  MapRecipe recipe;
+  if (method == to_string(PotentialMethod::kPoissonBoltzmann))
+    recipe.method = PotentialMethod::kPoissonBoltzmann;
+  else if (method == to_string(PotentialMethod::kCoulomb))
+    recipe.method = PotentialMethod::kCoulomb;
+  else
+    return words;
+  PotentialOptions options;
+  try {
+    while (text >> key >> value) find_potential_setting(key).set(options, value);
+  } catch (const InputError&) {
+    return words;
+  }
+  recipe.pb = options.pb;
+  recipe.coulomb = options.coulomb;
+  return potential_label(recipe);
 }
 
 }  // namespace espdiff

@@ -325,4 +325,17 @@ TEST_CASE("options of a potential: each refused with its name, and those that it
   }
 }
 
+TEST_CASE("a potential's settings are told in a few words") {
+  const auto told = [](PotentialMethod method, const espdiff::GivenPotentialSettings& given) {
+    return espdiff::short_potential(espdiff::potential_in_words(espdiff::make_potential_options(method, given, 300)));
+  };
+  CHECK(told(PotentialMethod::kPoissonBoltzmann, {}) == "Poisson-Boltzmann, 0.15 mol/l");
+  CHECK(told(PotentialMethod::kPoissonBoltzmann, {{"equation", "nonlinear"}, {"ionic_strength", "0.5"}}) ==
+        "nonlinear Poisson-Boltzmann, 0.5 mol/l");
+  CHECK(told(PotentialMethod::kCoulomb, {}) == "vacuum (Coulomb)");
+  CHECK(told(PotentialMethod::kCoulomb, {{"dielectric", "4"}}) == "Coulomb, dielectric 4");
+  for (const char* const text : {"maps", "pb of_another_version 1", "pme spline 6", ""})
+    CHECK(espdiff::short_potential(text) == text);
+}
+
 TEST_SUITE_END();

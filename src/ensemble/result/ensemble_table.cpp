@@ -13,6 +13,7 @@
 #include "ensemble/file/ensemble_file.h"
 #include "ensemble/result/ensemble_result.h"
 #include "mapping/map_recipe.h"
+#include "potential/potential_settings.h"
 #include "report/records/record.h"
 #include "report/sections/placement.h"
 
@@ -215,7 +216,9 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
   out << formatted("tested       %.1f A^2 of it (%.0f %%), which at least %.0f %% of each group's frames trust\n",
                    result.tested_area_A2, std::floor(100 * result.tested_share()),
                    100 - 100 * result.options.most_missing);
-  out << broken((file.plan().field ? "field        " : "potential    ") + file.plan().potential) << '\n';
+  out << broken(file.plan().field ? "field        " + file.plan().potential
+                                  : "potential    " + short_potential(file.plan().potential))
+      << '\n';
   if (result.n_together > 1)
     out << formatted("family       p is family-wise over the surfaces of %zu fields together\n", result.n_together);
   if (result.compares && result.test.inference == Inference::kReplicates)
