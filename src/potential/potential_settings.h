@@ -43,8 +43,8 @@ PotentialOptions make_potential_options(PotentialMethod method, const GivenPoten
 
 /// All options of the potential in words, for heads and plans of resumable runs: "pb ionic_strength 0.15 ...".
 std::string potential_in_words(const PotentialOptions& options);
-/// What potential_in_words() gave, for readers: "Poisson-Boltzmann, 0.15 mol/l". A text that it did not give, such as one
-/// of another version, and one of pme, whose label depends on the charges, stay as they are.
+/// What potential_in_words() gave, for readers: "Poisson-Boltzmann, 0.15 mol/l". A text that it did not give, such as
+/// one of another version, and one of pme, whose label depends on the charges, stay as they are.
 std::string short_potential(const std::string& words);
 
 }  // namespace espdiff
