@@ -326,6 +326,7 @@ TEST_CASE("options of a potential: each refused with its name, and those that it
 }
 
 TEST_CASE("a potential's settings are told in a few words") {
+  using espdiff::PotentialMethod;
   const auto told = [](PotentialMethod method, const espdiff::GivenPotentialSettings& given) {
     return espdiff::short_potential(espdiff::potential_in_words(espdiff::make_potential_options(method, given, 300)));
   };
