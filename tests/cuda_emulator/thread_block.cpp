@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "device_memory.h"
 #include "memory_checks.h"
 #include "settings.h"
 
