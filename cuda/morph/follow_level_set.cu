@@ -20,12 +20,15 @@ constexpr float kMaxPrediction_A = 0.5F;
 
 }  // namespace
 
-// Second order in time for the atoms' part (Adams-Bashforth): one evaluation a step.
-void advance(MovingSurface& surface, float dt) {
+// Second order in time for the atoms' part (Adams-Bashforth): the flow in the middle of the step on the line through
+// the last two evaluations.
+void advance(MovingSurface& surface, std::uint32_t step, float dt) {
   const MovingSurfaceView s = view_of(surface);
   for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
     const Vec4f flow = s.flow[v], before = s.previous[v];
-    Vec3f move = dt * (1.5F * flow.xyz() - 0.5F * before.xyz());
+    const VertexClock clock = s.clock[v];
+    const float ahead = (static_cast<float>(step - clock.last) - 0.5F) / static_cast<float>(clock.previous_interval);
+    Vec3f move = dt * (flow.xyz() + ahead * (flow.xyz() - before.xyz()));
     const Vec3f gradient = s.gradient[v].xyz();
     const float slope = norm(gradient);
     if (s.unmatched[v] == 0 && slope > kLeastSlope) {
@@ -33,7 +36,6 @@ void advance(MovingSurface& surface, float dt) {
       move += (along / slope) * gradient;
     }
     s.x[v] = make_vec4(s.x[v].xyz() + move, s.x[v].w + norm(move));
-    s.previous[v] = flow;
   });
 }
 
@@ -44,16 +46,6 @@ struct ReturningVertices {
   MovingSurfaceView surface;
   const Vec4f* start;
   float isovalue;
-};
-
-/// Where vertices were after an earlier return.
-struct SettledVertices {
-  const Vec4f* x;
-  std::size_t n;
-
-  ESPDIFF_INLINE bool holds(const Vec4f* now, std::size_t v) const {
-    return v < n && x[v].x == now[v].x && x[v].y == now[v].y && x[v].z == now[v].z;
-  }
 };
 
 /// One step of Newton's method at a vertex.
@@ -80,17 +72,15 @@ ESPDIFF_INLINE bool return_step(const ReturningVertices& in, std::size_t v, cons
 
 }  // namespace
 
-void return_vertex_by_vertex(MovingSurface& surface, const MovingAtoms& atoms, float isovalue,
-                             const Buffer<Vec4f>& settled) {
+void return_vertex_by_vertex(MovingSurface& surface, const MovingAtoms& atoms, float isovalue) {
   const Buffer<Vec4f> before = surface.x;
   const ReturningVertices in{view_of(surface), raw(before), isovalue};
   const AtomCellsView cells = atoms.cells->view();
   const AtomChange* const changes = raw(atoms.change);
   const std::uint32_t* const list = raw(surface.order);
-  const SettledVertices there{raw(settled), settled.size()};
   for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t i) {
     const std::uint32_t v = list[i];
-    if (there.holds(in.surface.x, v)) return;
+    if (in.surface.waits[v] != 0) return;
     for (int step = 0; step <= kMaxReturnSteps; ++step) {
       const FlowSample sample = flow_at(cells, changes, in.surface.x[v].xyz());
       if (return_step(in, v, sample, step == kMaxReturnSteps)) return;
@@ -98,10 +88,9 @@ void return_vertex_by_vertex(MovingSurface& surface, const MovingAtoms& atoms, f
   });
 }
 
-void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float isovalue,
-                         const Buffer<Vec4f>& settled) {
+void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float isovalue) {
 #if defined(__CUDACC__)
-  return_vertex_by_vertex(surface, atoms, isovalue, settled);
+  return_vertex_by_vertex(surface, atoms, isovalue);
 #else
   // Converged vertices leave the list, so all passes but the first are short.
   const std::size_t n = surface.x.size();
@@ -110,14 +99,9 @@ void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float
   const ReturningVertices in{view_of(surface), raw(before), isovalue};
   const FlowSample* const samples = raw(sampled);
   Buffer<std::uint32_t> pending = surface.order;
-  Buffer<std::uint8_t> done_flags(n, 0);
+  Buffer<std::uint8_t> done_flags = surface.waits;
   std::uint8_t* const done = raw(done_flags);
-  std::size_t n_pending = n;
-  if (!settled.empty()) {
-    const SettledVertices there{raw(settled), settled.size()};
-    for_each_index(n, [=](std::size_t v) { done[v] = there.holds(in.surface.x, v) ? 1 : 0; });
-    n_pending = drop_done(pending, n_pending, done_flags);
-  }
+  std::size_t n_pending = drop_done(pending, n, done_flags);
   for (int step = 0; n_pending > 0 && step <= kMaxReturnSteps; ++step) {
     flow_at_points(atoms, surface.x, pending, n_pending, sampled);
     const std::uint32_t* const list = raw(pending);

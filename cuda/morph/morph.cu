@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "base/error.h"
@@ -13,6 +14,7 @@
 #include "cuda/device/spatial_order.h"
 #include "cuda/device/unwrap.h"
 #include "cuda/morph/follow_level_set.h"
+#include "cuda/morph/local_time_steps.h"
 #include "cuda/morph/moving_surface.h"
 #include "cuda/morph/remove_torn_triangles.h"
 #include "cuda/morph/smooth_tangentially.h"
@@ -27,6 +29,10 @@ namespace {
 constexpr int kStepsOfFading = 16;
 /// Minimum number of steps: flow and level set are followed to second order only.
 constexpr int kLeastSteps = 8;
+/// Number of steps of the longest interval at which the flow of a vertex is evaluated.
+constexpr int kLongestInterval = 8;
+/// Edges are split in every second step: they grow slowly, and each split numbers the whole mesh anew.
+constexpr int kStepsOfSplit = 2;
 /// Rounds of smoothing at the end, after the atoms have stopped.
 constexpr int kLastRounds = 4;
 /// Largest shift of the final projections; the steps end closer to the surface than this.
@@ -44,13 +50,19 @@ void check_options(const MorphOptions& o) {
 /// More would take days. An atom that far off is a mistake in the input.
 constexpr int kMostSteps = 100000;
 
+/// On a screw the speed is constant except for the atom's own path.
+double farthest_A(const MovingAtom& atom) { return std::max(norm(atom.velocity_at(0)), norm(atom.velocity_at(1))); }
+
+bool has_fading(const MovingAtom& a) {
+  return !a.at_start || !a.at_end || std::abs(a.start_width - a.end_width) > 1e-3;
+}
+
 int steps_for(const std::vector<MovingAtom>& atoms, const MorphOptions& options) {
   double farthest = 0;
   bool fades = false;
   for (const MovingAtom& a : atoms) {
-    // On a screw the speed is constant except for the atom's own path.
-    farthest = std::max({farthest, norm(a.velocity_at(0)), norm(a.velocity_at(1))});
-    fades = fades || !a.at_start || !a.at_end || std::abs(a.start_width - a.end_width) > 1e-3;
+    farthest = std::max(farthest, farthest_A(a));
+    fades = fades || has_fading(a);
   }
   const double n_steps = std::ceil(farthest / options.max_step_A);
   if (!(n_steps <= kMostSteps)) {
@@ -63,6 +75,19 @@ int steps_for(const std::vector<MovingAtom>& atoms, const MorphOptions& options)
                      option("max-step"));
   }
   return std::max(fades ? kStepsOfFading : kLeastSteps, static_cast<int>(n_steps));
+}
+
+/// No vertex has fewer evaluations than the whole morph would have steps if it moved and faded as the atoms near it do.
+LocalTimeSteps local_steps(const std::vector<MovingAtom>& atoms, int n_steps, const MorphOptions& options) {
+  const auto max_step_A = static_cast<float>(options.max_step_A);
+  std::vector<float> displacements_A;
+  for (const MovingAtom& a : atoms) {
+    const double as_fading = has_fading(a) ? options.max_step_A * kStepsOfFading : 0;
+    displacements_A.push_back(static_cast<float>(std::max(farthest_A(a), as_fading) / n_steps));
+  }
+  std::uint32_t longest = 1;
+  while (longest < kLongestInterval && static_cast<int>(2 * longest) * kLeastSteps <= n_steps) longest *= 2;
+  return {std::move(displacements_A), longest, max_step_A};
 }
 
 std::shared_ptr<Scalars> as_scalars(const Buffer<std::uint8_t>& flags) {
@@ -172,24 +197,33 @@ MorphResult run_steps(MovingSurface surface, const SurfaceMesh& mesh, const std:
   MovingAtoms now = atoms_at(atoms, 0.0);
   return_to_level_set(surface, now, isovalue);
   surface.previous = surface.flow;
+  const LocalTimeSteps local = local_steps(atoms, n_steps, options);
+  const float dt = 1.0F / static_cast<float>(n_steps);
+  begin_intervals(surface, local.at(now), 0, dt);
   now = atoms_at(atoms, 1.0 / n_steps);
   Buffer<Vec4f> settled;
   for (int step = 1; step <= n_steps; ++step) {
     progress.report(stage, static_cast<double>(step - 1) / n_steps);
-    advance(surface, 1.0F / static_cast<float>(n_steps));
+    const auto number = static_cast<std::uint32_t>(step);
+    advance(surface, number, dt);
+    end_intervals(surface, number, step == n_steps);
     return_to_level_set(surface, now, isovalue);
     if (step == n_steps) settled = surface.x;
+    begin_intervals(surface, local.at(now), number, dt);
     remove_torn_triangles(surface);
     smooth_tangentially(surface);
-    const LongEdges edges = find_long_edges(surface, max_edge, max_stretch);
+    std::optional<LongEdges> edges;
+    if (step % kStepsOfSplit == 0 || step == n_steps) edges = find_long_edges(surface, max_edge, max_stretch);
     // The host computes the next atoms while a GPU still works on this step.
     if (step < n_steps) now = atoms_at(atoms, static_cast<double>(step + 1) / n_steps);
-    n_added += split_long_edges(surface, edges);
+    if (edges) n_added += split_long_edges(surface, *edges);
   }
   // The vertices added or moved in the last step lie beside the level set.
   for (int round = 0; round < kLastRounds; ++round) {
-    return_to_level_set(surface, now, isovalue, settled);
+    wait_where_settled(surface, settled);
+    return_to_level_set(surface, now, isovalue);
     settled = surface.x;
+    surface.waits.assign(surface.n_vertices(), 0);
     remove_torn_triangles(surface);
     if (round + 1 < kLastRounds) smooth_tangentially(surface);
   }
@@ -212,6 +246,8 @@ MovingSurface start_surface(const SurfaceMesh& mesh) {
   surface.flow.assign(mesh.n_vertices(), Vec4f{});
   surface.previous.assign(mesh.n_vertices(), Vec4f{});
   surface.gradient.assign(mesh.n_vertices(), Vec4f{});
+  surface.clock.assign(mesh.n_vertices(), VertexClock{0, 1, 1});
+  surface.waits.assign(mesh.n_vertices(), 0);
   surface.unmatched.assign(mesh.n_vertices(), 0);
   surface.removed.assign(mesh.n_triangles(), 0);
   surface.order = spatial_order(surface.x);

@@ -66,6 +66,7 @@ MovingAtoms atoms_at(const std::vector<MovingAtom>& atoms, double time) {
   MovingAtoms now;
   now.cells = make_atom_cells(positions, widths, std::vector<std::int32_t>(atoms.size(), 0), &order);
   now.change = in_cell_order(changes, order);
+  now.positions = std::move(positions);
   return now;
 }
 

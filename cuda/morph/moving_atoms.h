@@ -21,7 +21,8 @@ struct AtomChange {
 /// Atoms at one time.
 struct MovingAtoms {
   std::shared_ptr<AtomCells> cells;
-  Buffer<AtomChange> change;  ///< [sorted atom]
+  Buffer<AtomChange> change;     ///< [sorted atom]
+  std::vector<Vec3d> positions;  ///< [atom of the input] Angstrom; on the host
 };
 
 /// @throws InputError as make_atom_cells()

@@ -12,11 +12,13 @@ void remove_torn_triangles(MovingSurface& surface) {
   std::uint8_t* const flipped = raw(flipped_flags);
   for_each_index(surface.removed.size(), [=] ESPDIFF_HD(std::size_t t) {
     const Corners c = s.topology.triangles[t];
+    flipped[t] = 0;
+    if (all_wait(s, c)) return;
     const Vec3f uphill = s.gradient[c.v[0]].xyz() + s.gradient[c.v[1]].xyz() + s.gradient[c.v[2]].xyz();
     flipped[t] = dot(twice_area_vector(s.x, c), uphill) >= 0 ? 1 : 0;
   });
   for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
-    if (s.unmatched[v] != 0) return;
+    if (s.unmatched[v] != 0 || s.waits[v] != 0) return;
     Vec3f normal{};
     bool any = false;
     for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n) {

@@ -37,11 +37,13 @@ void smooth_tangentially(MovingSurface& surface) {
   const MovingSurfaceView s = view_of(surface);
   Vec4f* const to = raw(smoothed);
   float* const quality = raw(qualities);
-  for_each_index(surface.n_triangles(),
-                 [=] ESPDIFF_HD(std::size_t t) { quality[t] = shape_quality(s.x, s.topology.triangles[t]); });
+  for_each_index(surface.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
+    const Corners c = s.topology.triangles[t];
+    if (!all_wait(s, c)) quality[t] = shape_quality(s.x, c);
+  });
   for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
     to[v] = s.x[v];
-    if (s.unmatched[v] != 0) return;
+    if (s.unmatched[v] != 0 || s.waits[v] != 0) return;
     float now = 1.0F, before = 1.0F, altitude = 1e30F;
     for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n)
       now = smaller(now, quality[s.topology.incident[n]]);

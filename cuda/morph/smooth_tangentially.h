@@ -5,9 +5,9 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// Smooths vertices whose triangles have a much worse shape than on the source: moves them toward the mean of their
-/// ring, along the surface, by at most a third of the smallest altitude, so that no triangle flips
-///.
+/// Smooths the vertices that do not wait and whose triangles have a much worse shape than on the source: moves them
+/// toward the mean of their ring, along the surface, by at most a third of the smallest altitude, so that no triangle
+/// flips.
 void smooth_tangentially(MovingSurface& surface);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -23,6 +23,21 @@ Buffer<T> with_middles(const Buffer<T>& values, const EdgeSplit& split) {
   return result;
 }
 
+/// An added vertex has the mean flow of its edge's ends. It is evaluated in the next step.
+Buffer<VertexClock> with_new_clocks(const Buffer<VertexClock>& clocks, const EdgeSplit& split) {
+  const std::size_t n = clocks.size();
+  Buffer<VertexClock> result = clocks;
+  result.resize(n + split.ends.size());
+  VertexClock* const out = raw(result);
+  const EdgeSplit::Ends* const ends = raw(split.ends);
+  for_each_index(split.ends.size(), [=] ESPDIFF_HD(std::size_t k) {
+    const VertexClock a = out[ends[k].a], b = out[ends[k].b];
+    out[n + k] = {a.last > b.last ? a.last : b.last,
+                  a.previous_interval > b.previous_interval ? a.previous_interval : b.previous_interval, 1};
+  });
+  return result;
+}
+
 }  // namespace
 
 LongEdges find_long_edges(MovingSurface& surface, float max_edge_A, float max_stretch) {
@@ -34,7 +49,8 @@ LongEdges find_long_edges(MovingSurface& surface, float max_edge_A, float max_st
     for (std::uint32_t p = s.topology.first[v]; p < s.topology.first[v + 1]; ++p) {
       mark[p] = 0;
       const std::uint32_t other = s.topology.neighbour[p];
-      if (v > other || s.unmatched[v] != 0 || s.unmatched[other] != 0) continue;
+      if (v > other || (s.waits[v] != 0 && s.waits[other] != 0)) continue;
+      if (s.unmatched[v] != 0 || s.unmatched[other] != 0) continue;
       const Vec3f edge = s.x[v].xyz() - s.x[other].xyz();
       const float length = norm(edge);
       if (length <= max_edge_A) continue;
@@ -76,7 +92,9 @@ std::size_t split_long_edges(MovingSurface& surface, const LongEdges& edges) {
   surface.flow = with_middles(surface.flow, split);
   surface.previous = with_middles(surface.previous, split);
   surface.gradient = with_middles(surface.gradient, split);
+  surface.clock = with_new_clocks(surface.clock, split);
   surface.unmatched.resize(surface.x.size(), 0);
+  surface.waits.resize(surface.x.size(), 0);
   surface.removed.swap(removed);
   surface.topology = split.topology;
   surface.order = spatial_order(surface.x);

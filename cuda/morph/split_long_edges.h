@@ -11,8 +11,8 @@ struct LongEdges {
   Buffer<std::size_t> n;        ///< [0] how many
 };
 
-/// Finds the edges longer than `max_edge_A`; a vertex becomes unmatched where such an edge has grown more than
-/// `max_stretch` times.
+/// Finds the edges longer than `max_edge_A` of which an end does not wait; a vertex becomes unmatched where such an
+/// edge has grown more than `max_stretch` times.
 LongEdges find_long_edges(MovingSurface& surface, float max_edge_A, float max_stretch);
 
 /// Splits them; waits for their number.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "base/error.h"
 #include "base/molecule/surface_parts.h"
 #include "io/files/write_csv.h"
 #include "page/assembled_page.h"

@@ -10,6 +10,7 @@
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/device/spatial_order.h"
 #include "cuda/morph/follow_level_set.h"
+#include "cuda/morph/local_time_steps.h"
 #include "cuda/morph/morph.h"
 #include "cuda/morph/moving_atoms.h"
 #include "cuda/morph/moving_surface.h"
@@ -141,7 +142,10 @@ TEST_CASE("vertices return to the level set with the same bits in blocks and one
   MovingSurface blocks = start_surface(*mesh), singly = start_surface(*mesh);
   for (int step = 0; step < 4; ++step) {
     const MovingAtoms atoms = atoms_at(paths, 0.06 * step);
-    for (MovingSurface* surface : {&blocks, &singly}) advance(*surface, 0.06F);
+    for (MovingSurface* surface : {&blocks, &singly}) {
+      advance(*surface, static_cast<std::uint32_t>(step + 1), 0.06F);
+      end_intervals(*surface, static_cast<std::uint32_t>(step + 1), false);
+    }
     return_to_level_set(blocks, atoms, 0.5F);
     return_vertex_by_vertex(singly, atoms, 0.5F);
     for (const auto member : {&MovingSurface::x, &MovingSurface::flow, &MovingSurface::gradient}) {
@@ -156,10 +160,12 @@ TEST_CASE("vertices return to the level set with the same bits in blocks and one
   std::vector<Vec4f> moved = before;
   for (std::size_t v = 0; v < moved.size(); v += 3) moved[v].x += 0.05F;
   const MovingAtoms same_atoms = atoms_at(paths, 0.18);
-  blocks.x = to_device(moved);
-  singly.x = to_device(moved);
-  return_to_level_set(blocks, same_atoms, 0.5F, to_device(before));
-  return_vertex_by_vertex(singly, same_atoms, 0.5F, to_device(before));
+  for (MovingSurface* surface : {&blocks, &singly}) {
+    surface->x = to_device(moved);
+    wait_where_settled(*surface, to_device(before));
+  }
+  return_to_level_set(blocks, same_atoms, 0.5F);
+  return_vertex_by_vertex(singly, same_atoms, 0.5F);
   const std::vector<Vec4f> after = to_host(blocks.x), after_singly = to_host(singly.x);
   CHECK(std::memcmp(after.data(), after_singly.data(), after.size() * sizeof(Vec4f)) == 0);
   std::size_t n_stay = 0, n_return = 0;
@@ -172,6 +178,54 @@ TEST_CASE("vertices return to the level set with the same bits in blocks and one
   const auto n_unmatched = std::count(unmatched.begin(), unmatched.end(), 1);
   CHECK(n_unmatched > 0);
   CHECK(n_unmatched < static_cast<std::ptrdiff_t>(unmatched.size() / 2));
+}
+
+TEST_CASE("no vertex keeps its flow while an atom near it moves farther than allowed") {
+  constexpr float kMost_A = 0.35F;
+  constexpr std::uint32_t kLongest = 8;
+  std::vector<MovingAtom> paths = random_paths(600, 28);
+  Random random(29);
+  std::vector<float> displacements_A;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    // Few atoms are fast, most hardly move.
+    const double reach = i % 60 == 0 ? 0.35 : i % 20 == 0 ? 0.1 : 0.02;
+    displacements_A.push_back(static_cast<float>(random.uniform(0, reach)));
+  }
+  const MovingAtoms atoms = atoms_at(paths, 0.0);
+  const auto density = density_by_points(*atoms.cells, density_lattice(*atoms.cells, 0.9));
+  MovingSurface surface = start_surface(*isosurface(*density, 0.5F));
+  const auto intervals = [&](std::uint32_t step) {
+    begin_intervals(surface, LocalTimeSteps(displacements_A, kLongest, kMost_A).at(atoms), step, 0.01F);
+    return to_host(surface.clock);
+  };
+  const std::vector<VertexClock> clocks = intervals(0);
+  const std::vector<Vec4f> x = to_host(surface.x);
+  std::size_t n_wrong = 0, n_needless = 0;
+  std::vector<std::size_t> n_of(kLongest + 1, 0);
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    const std::uint32_t interval = clocks[v].interval;
+    REQUIRE(interval <= kLongest);
+    ++n_of[interval];
+    bool too_long = false, next_may = true;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const float gap = norm(x[v].xyz() - static_cast<Vec3f>(paths[i].start)) - 0.5F * atoms.cells->max_reach;
+      const auto moves = [&](std::uint32_t steps) { return static_cast<float>(steps) * displacements_A[i]; };
+      too_long = too_long || (interval > 1 && moves(interval) > kMost_A && gap < moves(interval));
+      // The grid's cells, and its boxes in place of balls, cost at most this.
+      next_may = next_may && (moves(2 * interval) <= kMost_A || gap > 2 * kMost_A * static_cast<float>(interval) + 9);
+    }
+    n_wrong += too_long ? 1 : 0;
+    n_needless += interval < kLongest && next_may ? 1 : 0;
+  }
+  CHECK(n_wrong == 0);
+  CHECK(n_needless == 0);
+  for (const std::uint32_t interval : {1U, 2U, 4U, 8U}) CHECK(n_of[interval] > 10);
+  // Intervals of n steps begin at multiples of n, and a vertex that itself moves far has short ones.
+  for (const VertexClock& clock : intervals(6)) CHECK(clock.interval <= 2);
+  surface.flow.assign(surface.n_vertices(), espdiff::make_vec4(Vec3f{0, 0, 9}, 0.0F));  // 0.09 A a step
+  for (const VertexClock& clock : intervals(0)) CHECK(clock.interval <= 2);
+  surface.flow.assign(surface.n_vertices(), espdiff::make_vec4(Vec3f{}, -18.0F));
+  for (const VertexClock& clock : intervals(0)) CHECK(clock.interval == 1);
 }
 
 TEST_CASE("atoms lie in their cells in the order of the input, without those of no width") {
