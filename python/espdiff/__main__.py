@@ -4,11 +4,15 @@ import os
 import sys
 
 
-def _start_again_without_spinning():
-    """As the program does: OpenMP's threads spin while they wait unless the environment says otherwise at the start."""
-    if "OMP_WAIT_POLICY" in os.environ or "GOMP_SPINCOUNT" in os.environ:
+def _start_again_with_settings():
+    """As the program does: OpenMP's threads spin while they wait, and the kernel hands out small pages, unless the
+    environment says otherwise at the start."""
+    before = dict(os.environ)
+    if "GOMP_SPINCOUNT" not in os.environ:
+        os.environ.setdefault("OMP_WAIT_POLICY", "passive")
+    os.environ.setdefault("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1")
+    if os.environ == before:
         return
-    os.environ["OMP_WAIT_POLICY"] = "passive"
     words = getattr(sys, "orig_argv", None) or [sys.executable, "-m", "espdiff", *sys.argv[1:]]
     os.execv(sys.executable, [sys.executable, *words[1:]])
 
@@ -40,7 +44,7 @@ def main(arguments=None):
 
 def start():
     """The console script `espdiff`."""
-    _start_again_without_spinning()
+    _start_again_with_settings()
     sys.exit(main())
 
 

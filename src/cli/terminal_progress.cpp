@@ -37,7 +37,6 @@ TerminalProgress::~TerminalProgress() {
 void TerminalProgress::draw(const std::string& stage, double fraction) {
   const bool is_new = stage != stage_;
   stage_ = stage;
-  if (is_new) keep_larger_arrays_apart();
   if (!is_terminal_) return;
   const auto now = std::chrono::steady_clock::now();
   if (!is_new && now - last_draw_ < kRedrawInterval) return;

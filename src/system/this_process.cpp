@@ -8,8 +8,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
@@ -27,8 +25,9 @@ std::string own_program() {
   return error ? std::string() : program.string();
 }
 
-void set_environment_default(const char* name, const char* value) {
-  ::setenv(name, value, 0);  // NOLINT(concurrency-mt-unsafe): the header says when
+bool set_environment_default(const char* name, const char* value) {
+  if (std::getenv(name) != nullptr) return false;
+  return ::setenv(name, value, 0) == 0;  // NOLINT(concurrency-mt-unsafe): the header says when
 }
 
 int become_program(const std::string& program, const std::vector<std::string>& words) {
@@ -64,32 +63,12 @@ void return_free_memory() {
 #endif
 }
 
+void keep_large_arrays_apart() {
 #if defined(__GLIBC__)
-namespace {
-
-constexpr int kLarge = 1 << 20, kLargest = 1 << 25;  // in bytes; the latter is glibc's limit
-std::atomic<int> size_of_own_pages{0};
-
-/// Arrays of this size get pages of their own, and at most four times as much free memory is kept.
-void set_size_of_own_pages(int size) {
-  if (size_of_own_pages.exchange(size) == size) return;
-  if (std::getenv("MALLOC_MMAP_THRESHOLD_") == nullptr) ::mallopt(M_MMAP_THRESHOLD, size);
-  if (std::getenv("MALLOC_TRIM_THRESHOLD_") == nullptr) ::mallopt(M_TRIM_THRESHOLD, 4 * size);
-}
-
-}  // namespace
-
-void keep_large_arrays_apart() { set_size_of_own_pages(kLarge); }
-
-void keep_larger_arrays_apart() {
-  constexpr std::uint64_t kShare = 16;
-  if (size_of_own_pages == 0) return;
-  const std::uint64_t part = allocated_bytes() / kShare;
-  set_size_of_own_pages(static_cast<int>(std::clamp<std::uint64_t>(part, kLarge, kLargest)));
-}
-#else
-void keep_large_arrays_apart() {}
-void keep_larger_arrays_apart() {}
+  constexpr int kLarge = 1 << 25, kKept = 4 * kLarge;
+  if (std::getenv("MALLOC_MMAP_THRESHOLD_") == nullptr) ::mallopt(M_MMAP_THRESHOLD, kLarge);
+  if (std::getenv("MALLOC_TRIM_THRESHOLD_") == nullptr) ::mallopt(M_TRIM_THRESHOLD, kKept);
 #endif
+}
 
 }  // namespace espdiff

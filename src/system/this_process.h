@@ -14,7 +14,8 @@ bool is_process(int number);
 /// The file of the running program; empty where it cannot be told.
 std::string own_program();
 /// Only while there is one thread, or where no other one asks. A value that the user gave is kept.
-void set_environment_default(const char* name, const char* value);
+/// @returns whether there was none
+bool set_environment_default(const char* name, const char* value);
 /// Runs another program (looked up on PATH without a slash) in place of this one. Returns only if that fails.
 /// @param words its name and arguments  @returns the error's number
 int become_program(const std::string& program, const std::vector<std::string>& words);
@@ -27,13 +28,9 @@ std::uint64_t memory_page_size();
 std::uint64_t allocated_bytes();
 /// Gives free memory that the allocator keeps back to the system, where the C library can.
 void return_free_memory();
-/// Large arrays get pages of their own from now on, which go back to the system when they are freed. Otherwise glibc
-/// raises the size from which it does so whenever a large array is freed, and later ones leave gaps in its heap. For a
-/// program, not a library: it is the whole process' setting. What the user set by MALLOC_... stays.
+/// Arrays from 32 MB, glibc's limit, get pages of their own from now on, which go back to the system when they are
+/// freed; of smaller ones up to 128 MB are kept, because pages that are fetched again at each step take a tenth of a
+/// run's time. For a program, not a library: it is the whole process' setting. What the user set by MALLOC_... stays.
 void keep_large_arrays_apart();
-/// The same between the stages of a run: where much memory is in use, only arrays above 1/16 of it get pages of their
-/// own. Pages that are given back and fetched again at each step would take a tenth of the time of a large molecule.
-/// Does nothing unless keep_large_arrays_apart() was called.
-void keep_larger_arrays_apart();
 
 }  // namespace espdiff
