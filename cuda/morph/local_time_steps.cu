@@ -1,119 +1,95 @@
-// local_time_steps.cu: a grid of the intervals that are too long, and the intervals of the vertices.
+// local_time_steps.cu: the intervals at which the flow of a vertex is evaluated.
 #include "cuda/morph/local_time_steps.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-constexpr float kCell_A = 2.0F;
-/// Of an atom's reach, 4.5 standard deviations: beyond it the atom has less than a tenth of its weight at its centre.
+/// Of an atom's reach, 4.5 standard deviations. Beyond it the atom has less than 0.3 of its weight at its centre.
 constexpr float kShareOfReach = 0.5F;
 
-/// Bits b and higher.
-constexpr std::uint8_t from_bit(unsigned b) { return static_cast<std::uint8_t>(0xFFU << b); }
+/// The atoms that move too far during the longest interval.
+struct FastAtoms {
+  std::shared_ptr<AtomCells> cells;  ///< null where there are none
+  Buffer<float> displacement;        ///< [sorted atom] in a step, Angstrom
+  float fastest = 0;
+};
 
-/// Spreads bits to the neighbours along one axis: bit b by radii[b] cells, which do not decrease.
-/// @param stride between neighbours along the axis
-void spread(std::vector<std::uint8_t>& cells, std::size_t stride, std::size_t length, const std::vector<int>& radii) {
-  const std::vector<std::uint8_t> before = cells;
-  // Lines of cells that lie beside each other are moved as one block.
-  const std::size_t block = stride * length;
-  unsigned bit = 0;
-  for (int offset = 1; offset <= radii.back(); ++offset) {
-    while (radii[bit] < offset) ++bit;
-    const std::uint8_t kept = from_bit(bit);
-    const std::size_t shift = stride * static_cast<std::size_t>(offset);
-    if (shift >= block) return;
-    for (std::size_t begin = 0; begin < cells.size(); begin += block) {
-      for (std::size_t i = begin; i < begin + block - shift; ++i) {
-        cells[i] = static_cast<std::uint8_t>(cells[i] | (before[i + shift] & kept));
-        cells[i + shift] = static_cast<std::uint8_t>(cells[i + shift] | (before[i] & kept));
-      }
-    }
+FastAtoms fast_atoms(const LocalTimeSteps& local, const MovingAtoms& atoms) {
+  FastAtoms fast;
+  std::vector<float> widths(local.displacements_A.size(), 0.0F);
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    const float displacement = local.displacements_A[i];
+    if (static_cast<float>(local.longest) * displacement <= local.max_displacement_A) continue;
+    widths[i] = atoms.widths[i];
+    if (widths[i] > 0) fast.fastest = std::max(fast.fastest, displacement);
   }
+  if (fast.fastest == 0) return fast;
+  Buffer<std::uint32_t> order;
+  fast.cells = make_atom_cells(atoms.positions, widths, std::vector<std::int32_t>(widths.size(), 0), &order);
+  fast.displacement = in_cell_order(local.displacements_A, order);
+  return fast;
 }
 
-/// The longest interval at a place.
-ESPDIFF_INLINE std::uint32_t interval_at(const IntervalGridView& grid, Vec3f p) {
-  int index[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    const float c = (p[axis] - grid.origin[axis]) / grid.cell;
-    if (!(c >= 0.0F && c < static_cast<float>(grid.size[axis]))) return grid.longest;
-    index[axis] = static_cast<int>(c);
+struct Intervals {
+  MovingSurfaceView surface;
+  const std::uint32_t* order;
+  AtomCellsView cells;
+  const float* displacement;
+  float search_reach;
+  float max_displacement;
+};
+
+/// Vertices that follow each other in the spatial order and share an interval, because the search takes as long as an
+/// evaluation of the flow.
+constexpr std::size_t kGroup = 8;
+
+/// The vertices of a group that do not wait.
+struct Group {
+  Vec3f lower, upper;
+  float displacement;  ///< of the one that moves farthest in a step
+  bool any;
+};
+
+ESPDIFF_INLINE Group group_of(const Intervals& in, std::size_t begin, std::size_t end, float dt) {
+  Group group{{1e30F, 1e30F, 1e30F}, {-1e30F, -1e30F, -1e30F}, 0.0F, false};
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::uint32_t v = in.order[i];
+    if (in.surface.waits[v] != 0) continue;
+    const Vec3f p = in.surface.x[v].xyz();
+    const Vec4f flow = in.surface.flow[v];
+    group.lower = {smaller(p.x, group.lower.x), smaller(p.y, group.lower.y), smaller(p.z, group.lower.z)};
+    group.upper = {larger(p.x, group.upper.x), larger(p.y, group.upper.y), larger(p.z, group.upper.z)};
+    group.displacement = larger(group.displacement, dt * (norm(flow.xyz()) + fabsf(flow.w)));
+    group.any = true;
   }
-  const std::uint32_t too_long = grid.too_long[index[0] + grid.size[0] * (index[1] + grid.size[1] * index[2])];
-  std::uint32_t interval = 1;
-  while (interval < grid.longest && (too_long & interval) == 0) interval *= 2;
+  return group;
+}
+
+ESPDIFF_INLINE float gap(float low, float high, float x) { return larger(larger(low - x, x - high), 0.0F); }
+
+/// The longest interval up to a given one in which no atom can come near that moves too far meanwhile.
+ESPDIFF_INLINE std::uint32_t shortened(const Intervals& in, const Group& group, std::uint32_t interval) {
+  const Vec3f centre = 0.5F * (group.lower + group.upper);
+  const float reach = in.search_reach + 0.5F * norm(group.upper - group.lower);
+  visit_atom_runs(in.cells, centre, reach, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t a = begin; a < end && interval > 1; ++a) {
+      const Vec3f d = {gap(group.lower.x, group.upper.x, in.cells.x[a]),
+                       gap(group.lower.y, group.upper.y, in.cells.y[a]),
+                       gap(group.lower.z, group.upper.z, in.cells.z[a])};
+      while (interval > 1) {
+        const float moves = static_cast<float>(interval) * in.displacement[a];
+        const float near = kShareOfReach * in.cells.reach[a] + moves;
+        if (moves <= in.max_displacement || dot(d, d) >= near * near) break;
+        interval /= 2;
+      }
+    }
+  });
   return interval;
 }
 
 }  // namespace
-
-IntervalGridView IntervalGrid::view() const {
-  return {raw(too_long), {size[0], size[1], size[2]}, origin, cell, longest, max_displacement};
-}
-
-LocalTimeSteps::LocalTimeSteps(std::vector<float> displacements_A, std::uint32_t longest, float max_displacement_A)
-    : displacements_A_(std::move(displacements_A)), longest_(longest), max_displacement_A_(max_displacement_A) {}
-
-IntervalGrid LocalTimeSteps::at(const MovingAtoms& atoms) const {
-  IntervalGrid grid;
-  grid.longest = longest_;
-  grid.max_displacement = max_displacement_A_;
-  if (longest_ == 1) return grid;
-  // Bit b stands for an interval of 2^(b+1) steps.
-  std::vector<std::uint8_t> bits(displacements_A_.size());
-  float fastest = 0;
-  Vec3d lower{1e30, 1e30, 1e30}, upper{-1e30, -1e30, -1e30};
-  for (std::size_t i = 0; i < bits.size(); ++i) {
-    unsigned bit = 0;
-    std::uint32_t interval = 2;
-    while (interval <= longest_ && static_cast<float>(interval) * displacements_A_[i] <= max_displacement_A_) {
-      interval *= 2;
-      ++bit;
-    }
-    if (interval > longest_) continue;
-    bits[i] = from_bit(bit);
-    fastest = std::max(fastest, displacements_A_[i]);
-    for (int axis = 0; axis < 3; ++axis) {
-      lower[axis] = std::min(lower[axis], atoms.positions[i][axis]);
-      upper[axis] = std::max(upper[axis], atoms.positions[i][axis]);
-    }
-  }
-  if (fastest == 0) return grid;
-  std::vector<int> radii;
-  for (std::uint32_t interval = 2; interval <= longest_; interval *= 2) {
-    // The atom and the vertex approach each other during the interval.
-    const float radius = kShareOfReach * atoms.cells->max_reach + static_cast<float>(interval) * fastest;
-    radii.push_back(static_cast<int>(std::ceil(radius / kCell_A)));
-  }
-  const auto margin = static_cast<double>(kCell_A) * (radii.back() + 1);
-  grid.cell = kCell_A;
-  grid.origin = static_cast<Vec3f>(lower - Vec3d{margin, margin, margin});
-  std::size_t n = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    grid.size[axis] = static_cast<int>((upper[axis] - lower[axis] + 2 * margin) / kCell_A) + 1;
-    n *= static_cast<std::size_t>(grid.size[axis]);
-  }
-  std::vector<std::uint8_t> too_long(n, 0);
-  const auto nx = static_cast<std::size_t>(grid.size[0]), ny = static_cast<std::size_t>(grid.size[1]),
-             nz = static_cast<std::size_t>(grid.size[2]);
-  for (std::size_t i = 0; i < bits.size(); ++i) {
-    if (bits[i] == 0) continue;
-    const auto cell = [&](int axis) {
-      return static_cast<std::size_t>((static_cast<float>(atoms.positions[i][axis]) - grid.origin[axis]) / grid.cell);
-    };
-    std::uint8_t& at = too_long[cell(0) + nx * (cell(1) + ny * cell(2))];
-    at = static_cast<std::uint8_t>(at | bits[i]);
-  }
-  spread(too_long, 1, nx, radii);
-  spread(too_long, nx, ny, radii);
-  spread(too_long, nx * ny, nz, radii);
-  grid.too_long = to_device(too_long);
-  return grid;
-}
 
 void end_intervals(MovingSurface& surface, std::uint32_t step, bool all) {
   const MovingSurfaceView s = view_of(surface);
@@ -128,17 +104,34 @@ void end_intervals(MovingSurface& surface, std::uint32_t step, bool all) {
   });
 }
 
-void begin_intervals(MovingSurface& surface, const IntervalGrid& grid, std::uint32_t step, float dt) {
-  const MovingSurfaceView s = view_of(surface);
-  const IntervalGridView g = grid.view();
-  for_each_index(surface.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
-    if (s.waits[v] != 0) return;
-    const Vec4f flow = s.flow[v];
-    const float displacement = dt * (norm(flow.xyz()) + fabsf(flow.w));
-    std::uint32_t interval = interval_at(g, s.x[v].xyz());
-    while (interval > 1 && (step % interval != 0 || static_cast<float>(interval) * displacement > g.max_displacement))
-      interval /= 2;
-    s.clock[v].interval = interval;
+void begin_intervals(MovingSurface& surface, const LocalTimeSteps& local, const MovingAtoms& atoms, std::uint32_t step,
+                     float dt) {
+  if (local.longest == 1) return;  // as they are
+  const FastAtoms fast = fast_atoms(local, atoms);
+  Intervals in{};
+  in.surface = view_of(surface);
+  in.order = raw(surface.order);
+  in.max_displacement = local.max_displacement_A;
+  const bool any_fast = fast.cells != nullptr;
+  if (any_fast) {
+    in.cells = fast.cells->view();
+    in.displacement = raw(fast.displacement);
+    in.search_reach = kShareOfReach * in.cells.max_reach + static_cast<float>(local.longest) * fast.fastest;
+  }
+  std::uint32_t longest = local.longest;
+  while (step % longest != 0) longest /= 2;
+  const std::size_t n = surface.n_vertices();
+  for_each_index((n + kGroup - 1) / kGroup, [=] ESPDIFF_HD(std::size_t g) {
+    const std::size_t begin = g * kGroup, end = begin + kGroup < n ? begin + kGroup : n;
+    const Group group = group_of(in, begin, end, dt);
+    if (!group.any) return;
+    std::uint32_t interval = longest;
+    while (interval > 1 && static_cast<float>(interval) * group.displacement > in.max_displacement) interval /= 2;
+    if (any_fast) interval = shortened(in, group, interval);
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t v = in.order[i];
+      if (in.surface.waits[v] == 0) in.surface.clock[v].interval = interval;
+    }
   });
 }
 

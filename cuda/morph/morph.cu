@@ -30,7 +30,11 @@ constexpr int kStepsOfFading = 16;
 /// Minimum number of steps: flow and level set are followed to second order only.
 constexpr int kLeastSteps = 8;
 /// Number of steps of the longest interval at which the flow of a vertex is evaluated.
-constexpr int kLongestInterval = 8;
+constexpr std::uint32_t kLongestInterval = 8;
+/// Of the atoms, with which an interval is worth the search for the others near each vertex.
+constexpr double kLeastSlow = 0.75;
+/// Of the flow of any vertex after the start.
+constexpr int kLeastEvaluations = 2;
 /// Edges are split in every second step: they grow slowly, and each split numbers the whole mesh anew.
 constexpr int kStepsOfSplit = 2;
 /// Rounds of smoothing at the end, after the atoms have stopped.
@@ -77,7 +81,7 @@ int steps_for(const std::vector<MovingAtom>& atoms, const MorphOptions& options)
   return std::max(fades ? kStepsOfFading : kLeastSteps, static_cast<int>(n_steps));
 }
 
-/// No vertex has fewer evaluations than the whole morph would have steps if it moved and faded as the atoms near it do.
+/// A vertex has at least as many evaluations as the morph would have steps if all moved and faded as the atoms near it.
 LocalTimeSteps local_steps(const std::vector<MovingAtom>& atoms, int n_steps, const MorphOptions& options) {
   const auto max_step_A = static_cast<float>(options.max_step_A);
   std::vector<float> displacements_A;
@@ -85,8 +89,14 @@ LocalTimeSteps local_steps(const std::vector<MovingAtom>& atoms, int n_steps, co
     const double as_fading = has_fading(a) ? options.max_step_A * kStepsOfFading : 0;
     displacements_A.push_back(static_cast<float>(std::max(farthest_A(a), as_fading) / n_steps));
   }
-  std::uint32_t longest = 1;
-  while (longest < kLongestInterval && static_cast<int>(2 * longest) * kLeastSteps <= n_steps) longest *= 2;
+  const auto n_slow = [&](std::uint32_t interval) {
+    return std::count_if(displacements_A.begin(), displacements_A.end(),
+                         [&](float d) { return static_cast<float>(interval) * d <= max_step_A; });
+  };
+  std::uint32_t longest = kLongestInterval;
+  while (longest > 1 && (static_cast<int>(longest) * kLeastEvaluations > n_steps ||
+                         static_cast<double>(n_slow(longest)) < kLeastSlow * static_cast<double>(atoms.size())))
+    longest /= 2;
   return {std::move(displacements_A), longest, max_step_A};
 }
 
@@ -199,7 +209,7 @@ MorphResult run_steps(MovingSurface surface, const SurfaceMesh& mesh, const std:
   surface.previous = surface.flow;
   const LocalTimeSteps local = local_steps(atoms, n_steps, options);
   const float dt = 1.0F / static_cast<float>(n_steps);
-  begin_intervals(surface, local.at(now), 0, dt);
+  begin_intervals(surface, local, now, 0, dt);
   now = atoms_at(atoms, 1.0 / n_steps);
   Buffer<Vec4f> settled;
   for (int step = 1; step <= n_steps; ++step) {
@@ -209,7 +219,7 @@ MorphResult run_steps(MovingSurface surface, const SurfaceMesh& mesh, const std:
     end_intervals(surface, number, step == n_steps);
     return_to_level_set(surface, now, isovalue);
     if (step == n_steps) settled = surface.x;
-    begin_intervals(surface, local.at(now), number, dt);
+    begin_intervals(surface, local, now, number, dt);
     remove_torn_triangles(surface);
     smooth_tangentially(surface);
     std::optional<LongEdges> edges;

@@ -67,6 +67,7 @@ MovingAtoms atoms_at(const std::vector<MovingAtom>& atoms, double time) {
   now.cells = make_atom_cells(positions, widths, std::vector<std::int32_t>(atoms.size(), 0), &order);
   now.change = in_cell_order(changes, order);
   now.positions = std::move(positions);
+  now.widths = std::move(widths);
   return now;
 }
 

@@ -23,6 +23,7 @@ struct MovingAtoms {
   std::shared_ptr<AtomCells> cells;
   Buffer<AtomChange> change;     ///< [sorted atom]
   std::vector<Vec3d> positions;  ///< [atom of the input] Angstrom; on the host
+  std::vector<float> widths;     ///< [atom of the input] Angstrom, 0 where it is absent; on the host
 };
 
 /// @throws InputError as make_atom_cells()
