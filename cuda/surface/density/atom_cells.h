@@ -51,16 +51,22 @@ std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, 
                                            const std::vector<std::int32_t>& residues,
                                            Buffer<std::uint32_t>* order = nullptr);
 
+/// A lambda of nvcc in a template's function is one type in all files, but is known in one of them only.
+template <typename T>
+struct TakeInOrder {
+  const T* from;
+  const std::uint32_t* index;
+  T* to;
+  ESPDIFF_HD void operator()(std::size_t place) const { to[place] = from[index[place]]; }
+};
+
 /// [sorted atom] the values of the atoms in the order of their cells.
 /// @param values [atom in the input]
 template <typename T>
 Buffer<T> in_cell_order(const std::vector<T>& values, const Buffer<std::uint32_t>& order) {
   const Buffer<T> sent = to_device(values);
   Buffer<T> sorted(order.size());
-  const T* const from = raw(sent);
-  const std::uint32_t* const index = raw(order);
-  T* const to = raw(sorted);
-  for_each_index(sorted.size(), [=] ESPDIFF_HD(std::size_t place) { to[place] = from[index[place]]; });
+  for_each_index(sorted.size(), TakeInOrder<T>{raw(sent), raw(order), raw(sorted)});
   return sorted;
 }
 
