@@ -55,7 +55,7 @@ void check_options(const MorphOptions& o) {
 constexpr int kMostSteps = 100000;
 
 /// On a screw the speed is constant except for the atom's own path.
-double farthest_A(const MovingAtom& atom) { return std::max(norm(atom.velocity_at(0)), norm(atom.velocity_at(1))); }
+double farthest_path(const MovingAtom& atom) { return std::max(norm(atom.velocity_at(0)), norm(atom.velocity_at(1))); }
 
 bool has_fading(const MovingAtom& a) {
   return !a.at_start || !a.at_end || std::abs(a.start_width - a.end_width) > 1e-3;
@@ -65,7 +65,7 @@ int steps_for(const std::vector<MovingAtom>& atoms, const MorphOptions& options)
   double farthest = 0;
   bool fades = false;
   for (const MovingAtom& a : atoms) {
-    farthest = std::max(farthest, farthest_A(a));
+    farthest = std::max(farthest, farthest_path(a));
     fades = fades || has_fading(a);
   }
   const double n_steps = std::ceil(farthest / options.max_step_A);
@@ -87,7 +87,7 @@ LocalTimeSteps local_steps(const std::vector<MovingAtom>& atoms, int n_steps, co
   std::vector<float> displacements_A;
   for (const MovingAtom& a : atoms) {
     const double as_fading = has_fading(a) ? options.max_step_A * kStepsOfFading : 0;
-    displacements_A.push_back(static_cast<float>(std::max(farthest_A(a), as_fading) / n_steps));
+    displacements_A.push_back(static_cast<float>(std::max(farthest_path(a), as_fading) / n_steps));
   }
   const auto n_slow = [&](std::uint32_t interval) {
     return std::count_if(displacements_A.begin(), displacements_A.end(),
