@@ -165,8 +165,11 @@ void print_next(const CompareArguments& a, const PairAnswer& first, Engine& engi
   if (untried) {
     std::cout << "\nnext: " << as_typed(words_of(a, *untried, context)) << "\n      not tried, " << untried->what
               << ": it takes about " << std::lround(untried->size * once_s) << " s";
-  } else {
+  } else if (a.picture.empty()) {
     std::cout << "\nnext: " << as_typed({"render", a.output, "-o", a.output + ".png"}) << "\n      shows where";
+  } else {
+    std::cout << "\nnext: " << as_typed({"render", a.output, "--color", "why", "-o", a.output + ".why.png"})
+              << "\n      shows where it is not trusted, and why";
   }
   if (!tried.empty()) std::cout << "; tried without success: " << tried;
   std::cout << '\n';

@@ -84,6 +84,13 @@ TEST_CASE("next: a chain more in one state is left out by the command that was t
   CHECK(no_trials.status == 3);
   CHECK(next_words(no_trials.out) == "render " + folder.file("out") + " -o " + folder.file("out.png"));
   CHECK(run_espdiff("render --help").status == 0);
+  if (std::getenv("DISPLAY") == nullptr) return;
+  // The picture is there already: the next one shows why.
+  const Outcome drawn = run_espdiff(answered + ".png --require 0.95 --no-trials");
+  CHECK(drawn.status == 3);
+  const std::string why = next_words(drawn.out);
+  CHECK(why == "render " + folder.file("out") + " --color why -o " + folder.file("out.why.png"));
+  CHECK(run_espdiff(why).status == 0);
 }
 
 TEST_CASE("next: ligands of both files are named at once, and made by the command of the error") {
