@@ -136,7 +136,9 @@ void print_next(const CompareArguments& a, const PairAnswer& first, Engine& engi
   const auto begun = std::chrono::steady_clock::now();
   std::vector<std::string> given;
   for (const auto& setting : a.settings) given.push_back(setting.first);
-  const bool prepared = first.provenance.preparations.size() == 2;
+  PreparedStates prepared;
+  for (const auto& preparation : first.provenance.preparations)
+    (preparation.first == "source" ? prepared.source : prepared.target) = true;
   const double once_s = total_seconds(first.result);
   std::string tried;
   std::optional<WayOn> untried;

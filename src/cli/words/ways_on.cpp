@@ -2,10 +2,12 @@
 #include "cli/words/ways_on.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <set>
 
+#include "base/molecule/water.h"
 #include "certificate/result.h"
 
 namespace espdiff::cli {
@@ -97,12 +99,35 @@ std::string residues_of_one_state(const std::vector<ComparedChains>& chains, con
   return selection.empty() ? selection : selection.substr(1);
 }
 
+/// The force field, by its name in PDB2PQR, whose backbones have the molecule's charges; null where none has.
+const char* force_field_of(const Molecule& molecule) {
+  struct Backbone {
+    const char* name;
+    float oxygen;  ///< charge of the carbonyl oxygen, elementary charges
+  };
+  // Cornell et al. 1995 and its successors; MacKerell et al. 1998.
+  constexpr Backbone kBackbones[] = {{"amber", -0.5679F}, {"charmm", -0.51F}};
+  constexpr float kSame = 0.002F;
+  if (molecule.charges.size() != molecule.size()) return nullptr;
+  for (const Backbone& backbone : kBackbones) {
+    std::size_t n = 0, n_same = 0;
+    for (std::size_t i = 0; i < molecule.size(); ++i) {
+      const Atom& atom = molecule.atoms[i];
+      if (atom.name != "O" || is_water_name(molecule.residues[static_cast<std::size_t>(atom.residue)].name)) continue;
+      ++n;
+      n_same += std::fabs(molecule.charges[i] - backbone.oxygen) < kSame ? 1 : 0;
+    }
+    if (2 * n_same > n) return backbone.name;
+  }
+  return nullptr;
+}
+
 bool is_named(const ComparedChains& chains) { return !chains.source.empty() && !chains.target.empty(); }
 
 }  // namespace
 
 std::vector<WayOn> ways_on(const CompareResult& result, const Molecule& source, const Molecule& target,
-                           const std::vector<std::string>& given, bool prepared) {
+                           const std::vector<std::string>& given, PreparedStates prepared) {
   const auto has = [&](const char* name) { return std::find(given.begin(), given.end(), name) != given.end(); };
   const bool has_side = std::any_of(given.begin(), given.end(), [](const std::string& name) {
     return name.rfind("source-", 0) == 0 || name.rfind("target-", 0) == 0;
@@ -110,6 +135,11 @@ std::vector<WayOn> ways_on(const CompareResult& result, const Molecule& source, 
   // A region, a patch and causes are of the source.
   const bool has_place = has("region") || has("region-within") || has("patch") || has("causes");
   std::vector<WayOn> ways;
+  if (prepared.source != prepared.target && result.potential.compared && !has("force-field")) {
+    const char* const force_field = force_field_of(prepared.source ? target : source);
+    if (force_field != nullptr)
+      ways.push_back({"the other file's force field for both", false, {{"force-field", force_field}}, 1});
+  }
   const bool may_select = !has("select") && !has_side && !has("assembly") && !result.inputs.chains.empty() &&
                           std::all_of(result.inputs.chains.begin(), result.inputs.chains.end(), is_named);
   if (may_select && std::max(n_chains(source), n_chains(target)) > result.inputs.chains.size())
@@ -125,7 +155,7 @@ std::vector<WayOn> ways_on(const CompareResult& result, const Molecule& source, 
   if (!has_side && !has_place) ways.push_back({"source and target exchanged", true, {}, 1});
   if (has("domains") && result.mapping.domains != "local")
     ways.push_back({"motions chosen by need", false, {{"domains", "as-needed"}}, 1});
-  if (prepared && result.potential.compared && !has("same-protonation"))
+  if (prepared.source && prepared.target && result.potential.compared && !has("same-protonation"))
     ways.push_back({"one protonation for both", false, {{"same-protonation", "", true}}, 1});
   return ways;
 }

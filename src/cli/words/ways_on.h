@@ -22,13 +22,18 @@ struct WayOn {
   double size = 1;                   ///< of the changed comparison: its atoms, of those of the present one
 };
 
-/// The changes that are worth a trial, the most likely one first: the chains that were compared, without the others;
+/// The states that got their charges from PDB2PQR.
+struct PreparedStates {
+  bool source = false, target = false;
+};
+
+/// The changes that are worth a trial, the most likely one first: the force field of the state that has charges for the
+/// other, which was prepared; the chains that were compared, without the others;
 /// each chain by its own motion; one pair of chains; no tails and loops that only one state has; the mapping in the
 /// other direction; motions that are chosen by need; one protonation for both states.
 /// @param given    names of the settings that were given
-/// @param prepared whether both states got their charges from PDB2PQR
 std::vector<WayOn> ways_on(const CompareResult& result, const Molecule& source, const Molecule& target,
-                           const std::vector<std::string>& given, bool prepared);
+                           const std::vector<std::string>& given, PreparedStates prepared);
 
 /// Whether the trial of a change is affordable: all trials may take a minute, or as long as the answer took.
 /// @param once_s  seconds of the present comparison

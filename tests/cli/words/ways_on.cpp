@@ -32,7 +32,7 @@ espdiff::Molecule chains_of(const std::string& names, std::size_t n_atoms) {
 TEST_CASE("a chain against a complex of four: the chain alone comes first, and costs what it has of the atoms") {
   espdiff::CompareResult result;
   result.inputs.chains = {{"A", "C", 298}};
-  const auto ways = ways_on(result, chains_of("A", 100), chains_of("ABCD", 100), {}, false);
+  const auto ways = ways_on(result, chains_of("A", 100), chains_of("ABCD", 100), {}, {});
   REQUIRE(ways.size() == 2);
   CHECK(ways[0].what == "chain A with chain C alone");
   CHECK(ways[0].options[1].name == "target-select");
@@ -52,7 +52,7 @@ TEST_CASE("a tail that only one state has is left out, a missing residue and ano
   result.inputs.chains = {{"X", "X", 76}};
   const auto first_of = [&](const espdiff::Molecule& source, const espdiff::Molecule& target,
                             const std::vector<std::string>& given) {
-    return ways_on(result, source, target, given, false).front();
+    return ways_on(result, source, target, given, {}).front();
   };
   const WayOn way = first_of(chain(1, 111), chain(-5, 76), {});
   CHECK(way.what == "without residues that only one state has");
@@ -66,11 +66,11 @@ TEST_CASE("a tail that only one state has is left out, a missing residue and ano
 TEST_CASE("several chains are superposed each by itself before one of them is compared alone") {
   espdiff::CompareResult result;
   result.inputs.chains = {{"A", "A", 100}, {"B", "B", 100}};
-  const auto ways = ways_on(result, chains_of("AB", 100), chains_of("AB", 100), {}, false);
+  const auto ways = ways_on(result, chains_of("AB", 100), chains_of("AB", 100), {}, {});
   REQUIRE(ways.size() >= 2);
   CHECK(ways[0].options[0].value == "chains");
   CHECK(ways[1].what == "chain A alone");
-  CHECK(ways_on(result, chains_of("AB", 100), chains_of("AB", 100), {"domains"}, false)[0].what == "chain A alone");
+  CHECK(ways_on(result, chains_of("AB", 100), chains_of("AB", 100), {"domains"}, {})[0].what == "chain A alone");
 }
 
 TEST_CASE("trials may take a minute, or as long as the answer took") {
@@ -80,4 +80,26 @@ TEST_CASE("trials may take a minute, or as long as the answer took") {
   CHECK(has_time_for(part, 120, 70));  // 48 s more, of 120
   CHECK_FALSE(has_time_for(part, 120, 80));
   CHECK(has_time_for(whole, 120, 0));
+}
+
+TEST_CASE("charges of two force fields: that of the file with charges is tried for the one that was prepared") {
+  espdiff::CompareResult result;
+  result.potential.compared = true;
+  const auto with_charge = [](float oxygen) {
+    espdiff::Molecule molecule = chains_of("A", 5);
+    for (std::size_t i = 0; i < 3; ++i) molecule.atoms[i].name = "O";
+    molecule.charges = {oxygen, oxygen, -0.8F, 0, 0};
+    molecule.radii.assign(5, 0);
+    return molecule;
+  };
+  const espdiff::Molecule prepared = with_charge(-0.55F);
+  const auto first = ways_on(result, with_charge(-0.51F), prepared, {}, {false, true}).front();
+  REQUIRE(first.options.size() == 1);
+  CHECK(first.options[0].name == "force-field");
+  CHECK(first.options[0].value == "charmm");
+  CHECK(ways_on(result, prepared, with_charge(-0.5679F), {}, {true, false}).front().options[0].value == "amber");
+  // Where another one is asked for, none is known, or both were prepared.
+  CHECK(ways_on(result, prepared, with_charge(-0.5679F), {"force-field"}, {true, false}).front().exchanges);
+  CHECK(ways_on(result, prepared, with_charge(-0.5F), {}, {true, false}).front().exchanges);
+  CHECK(ways_on(result, prepared, with_charge(-0.51F), {}, {true, true}).front().exchanges);
 }
