@@ -6,7 +6,8 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Of an atom's reach, 4.5 standard deviations. Beyond it the atom has less than 0.3 of its weight at its centre.
+/// An atom counts as near within this share of its reach (of 4.5 standard deviations). Farther off its velocity has
+/// less than 0.3 of its largest weight.
 constexpr float kShareOfReach = 0.5F;
 
 /// The atoms that move too far during the longest interval.

@@ -31,9 +31,10 @@ constexpr int kStepsOfFading = 16;
 constexpr int kLeastSteps = 8;
 /// Number of steps of the longest interval at which the flow of a vertex is evaluated.
 constexpr std::uint32_t kLongestInterval = 8;
-/// Of the atoms, with which an interval is worth the search for the others near each vertex.
+/// An interval is tried if at least this share of the atoms is slow enough for it: the search for the others near each
+/// vertex costs more than it saves where most are fast.
 constexpr double kLeastSlow = 0.75;
-/// Of the flow of any vertex after the start.
+/// The flow of each vertex is evaluated at least so often after the start.
 constexpr int kLeastEvaluations = 2;
 /// Edges are split in every second step: they grow slowly, and each split numbers the whole mesh anew.
 constexpr int kStepsOfSplit = 2;

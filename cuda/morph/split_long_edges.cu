@@ -11,6 +11,15 @@ namespace {
 
 constexpr std::uint32_t kHalve = 1, kTorn = 2;
 
+ESPDIFF_INLINE Vec4f middle(const Vec4f& a, const Vec4f& b) { return 0.5F * (a + b); }
+
+/// The added vertex is evaluated in the next step.
+ESPDIFF_INLINE VertexClock middle(const VertexClock& a, const VertexClock& b) {
+  return {a.last > b.last ? a.last : b.last,
+          a.previous_interval > b.previous_interval ? a.previous_interval : b.previous_interval, 1};
+}
+
+/// Values of all vertices: each added one has the middle of its edge's ends.
 template <typename T>
 Buffer<T> with_middles(const Buffer<T>& values, const EdgeSplit& split) {
   const std::size_t n = values.size();
@@ -19,22 +28,7 @@ Buffer<T> with_middles(const Buffer<T>& values, const EdgeSplit& split) {
   T* const out = raw(result);
   const EdgeSplit::Ends* const ends = raw(split.ends);
   for_each_index(split.ends.size(),
-                 [=] ESPDIFF_HD(std::size_t k) { out[n + k] = 0.5F * (out[ends[k].a] + out[ends[k].b]); });
-  return result;
-}
-
-/// An added vertex has the mean flow of its edge's ends. It is evaluated in the next step.
-Buffer<VertexClock> with_new_clocks(const Buffer<VertexClock>& clocks, const EdgeSplit& split) {
-  const std::size_t n = clocks.size();
-  Buffer<VertexClock> result = clocks;
-  result.resize(n + split.ends.size());
-  VertexClock* const out = raw(result);
-  const EdgeSplit::Ends* const ends = raw(split.ends);
-  for_each_index(split.ends.size(), [=] ESPDIFF_HD(std::size_t k) {
-    const VertexClock a = out[ends[k].a], b = out[ends[k].b];
-    out[n + k] = {a.last > b.last ? a.last : b.last,
-                  a.previous_interval > b.previous_interval ? a.previous_interval : b.previous_interval, 1};
-  });
+                 [=] ESPDIFF_HD(std::size_t k) { out[n + k] = middle(out[ends[k].a], out[ends[k].b]); });
   return result;
 }
 
@@ -92,7 +86,7 @@ std::size_t split_long_edges(MovingSurface& surface, const LongEdges& edges) {
   surface.flow = with_middles(surface.flow, split);
   surface.previous = with_middles(surface.previous, split);
   surface.gradient = with_middles(surface.gradient, split);
-  surface.clock = with_new_clocks(surface.clock, split);
+  surface.clock = with_middles(surface.clock, split);
   surface.unmatched.resize(surface.x.size(), 0);
   surface.waits.resize(surface.x.size(), 0);
   surface.removed.swap(removed);

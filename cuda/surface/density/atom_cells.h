@@ -51,7 +51,8 @@ std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, 
                                            const std::vector<std::int32_t>& residues,
                                            Buffer<std::uint32_t>* order = nullptr);
 
-/// A lambda of nvcc in a template's function is one type in all files, but is known in one of them only.
+/// Copies a value to its place in the order. It is no lambda, because nvcc's wrapper of a device lambda in a template
+/// is initialized in one of the files that use it only.
 template <typename T>
 struct TakeInOrder {
   const T* from;
