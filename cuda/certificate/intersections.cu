@@ -6,7 +6,7 @@
 
 #include "cuda/certificate/fans.h"
 #include "cuda/certificate/triangle_pairs.h"
-#include "cuda/surface/density/point_sums.h"
+#include "cuda/device/lanes.h"
 #include "cuda/surface/mesh/triangle_tree.h"
 #include "engine/certificate_stage.h"
 
@@ -88,17 +88,10 @@ ESPDIFF_INLINE void load(const GroupOfBoxes& from, BoxLanes& to) { std::memcpy(&
 
 /// In lanes whose box overlaps the other, no side of one lies beyond the opposite side of the other.
 ESPDIFF_INLINE LaneMask overlap_lanes(const BoxLanes& a, const Box& b) {
-  const Lanes x = larger_lanes(a.lower_x - b.upper.x, b.lower.x - a.upper_x),
-              y = larger_lanes(a.lower_y - b.upper.y, b.lower.y - a.upper_y),
-              z = larger_lanes(a.lower_z - b.upper.z, b.lower.z - a.upper_z);
+  const Lanes x = larger_lanes<Lanes>(a.lower_x - b.upper.x, b.lower.x - a.upper_x),
+              y = larger_lanes<Lanes>(a.lower_y - b.upper.y, b.lower.y - a.upper_y),
+              z = larger_lanes<Lanes>(a.lower_z - b.upper.z, b.lower.z - a.upper_z);
   return larger_lanes(x, larger_lanes(y, z)) <= Lanes{};
-}
-
-/// The lanes of a mask as bits.
-ESPDIFF_INLINE std::uint32_t bits_of(const LaneMask& mask) {
-  const LaneMask bit = {1, 2, 4, 8, 16, 32, 64, 128};
-  const std::uint64_t both = joined_words(mask & bit);
-  return static_cast<std::uint32_t>(both | both >> 32U);
 }
 
 /// Compares the triangles of four neighbouring leaves with those of four others.

@@ -139,6 +139,7 @@ struct SlipInputs {
   const std::uint32_t* place;  ///< vertices of the target
   TopologyView target;
   const Vec4f *from, *to, *there;  ///< source, mapped, target
+  PointList points;                ///< of the source, in spatial order
   float* slip;
 };
 
@@ -190,59 +191,65 @@ ESPDIFF_INLINE float slip_at(const SlipInputs& in, std::size_t v) {
 /// Paired atoms that reach a block; in a block with more, its vertices are taken one by one.
 constexpr std::size_t kMostAtoms = 512;
 
+template <typename Numbers>
 struct CarriedLanes {
-  Lanes x, y, z, square;
-  LaneMask vertex;
+  Numbers x, y, z, square;
+  MaskOf<Numbers> vertex;
 };
 
 /// The nearest of a pair's places, in lanes in which the pair's atom has its share.
-ESPDIFF_INLINE void visit_places(const SlipInputs& in, std::int32_t pair, const Lanes& gaussian, const Lanes& least,
-                                 CarriedLanes& c) {
+template <typename Numbers>
+ESPDIFF_INLINE void visit_places(const SlipInputs& in, std::int32_t pair, const Numbers& gaussian, const Numbers& least,
+                                 CarriedLanes<Numbers>& c) {
+  using Vertices = MaskOf<Numbers>;
   for (std::uint32_t k = in.first[pair]; k < in.first[pair + 1]; ++k) {
     const std::uint32_t vertex = in.place[k];
     const Vec4f& x = in.there[vertex];
-    const Lanes dx = x.x - c.x, dy = x.y - c.y, dz = x.z - c.z;
-    const Lanes square = chosen(gaussian < least, Lanes{} + INFINITY, dx * dx + dy * dy + dz * dz);
-    const LaneMask own = LaneMask{} + static_cast<std::int32_t>(vertex);
-    const LaneMask of_equal = smaller_lanes(own, c.vertex);
+    const Numbers dx = x.x - c.x, dy = x.y - c.y, dz = x.z - c.z;
+    const Numbers square =
+        chosen<Vertices, Numbers>(gaussian < least, Numbers{} + INFINITY, dx * dx + dy * dy + dz * dz);
+    const Vertices own = Vertices{} + static_cast<std::int32_t>(vertex);
+    const Vertices of_equal = smaller_lanes(own, c.vertex);
     c.vertex = chosen(square == c.square, of_equal, chosen(square < c.square, own, c.vertex));
     c.square = smaller_lanes(square, c.square);
   }
 }
 
-ESPDIFF_INLINE void slip_of_block(const SlipInputs& in, const SharedAtoms& near, const PointList& list,
-                                  std::size_t block) {
+template <std::size_t N>
+ESPDIFF_INLINE void slip_of_block(const SlipInputs& in, const SharedAtoms& near, std::size_t begin) {
+  using Numbers = typename LaneTypes<N>::Numbers;
   std::int32_t pairs[kMostAtoms];
-  Lanes gaussians[kMostAtoms];
+  Numbers gaussians[kMostAtoms];
   std::size_t n = 0;
-  const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, list.n);
-  Lanes px, py, pz;
-  for (std::size_t lane = 0; lane < kBlock; ++lane) {
+  const PointList& list = in.points;
+  const std::size_t end = std::min(begin + N, list.n);
+  Numbers px, py, pz;
+  for (std::size_t lane = 0; lane < N; ++lane) {
     const Vec4f& p = list.points[list.list[std::min(begin + lane, end - 1)]];
     px[lane] = p.x;
     py[lane] = p.y;
     pz[lane] = p.z;
   }
-  Lanes all{}, paired{}, x{}, y{}, z{};
-  sum_at_block(in.cells, near, list, block,
-               [&](std::uint32_t a, float, const Lanes&, const Lanes&, const Lanes&, const Lanes&,
-                   const Lanes& gaussian) ESPDIFF_INLINE_LAMBDA {
-                 all += gaussian;
-                 if (in.cells.residue[a] < 0) return;
-                 paired += gaussian;
-                 const Motion& m = in.motion[a];
-                 x += gaussian * ((m.row[0].x * px + m.row[0].y * py + m.row[0].z * pz) + m.shift.x);
-                 y += gaussian * ((m.row[1].x * px + m.row[1].y * py + m.row[1].z * pz) + m.shift.y);
-                 z += gaussian * ((m.row[2].x * px + m.row[2].y * py + m.row[2].z * pz) + m.shift.z);
-                 if (n < kMostAtoms) {
-                   pairs[n] = in.cells.residue[a];
-                   gaussians[n] = gaussian;
-                 }
-                 ++n;
-               });
-  const Lanes inverse = 1.0F / paired;
-  CarriedLanes carried{inverse * x, inverse * y, inverse * z, Lanes{} + INFINITY, LaneMask{}};
-  const Lanes least = kLeastShare * all;
+  Numbers all{}, paired{}, x{}, y{}, z{};
+  sum_at_block<N>(in.cells, near, list, begin,
+                  [&](std::uint32_t a, float, const Numbers&, const Numbers&, const Numbers&, const Numbers&,
+                      const Numbers& gaussian) ESPDIFF_INLINE_LAMBDA {
+                    all += gaussian;
+                    if (in.cells.residue[a] < 0) return;
+                    paired += gaussian;
+                    const Motion& m = in.motion[a];
+                    x += gaussian * ((m.row[0].x * px + m.row[0].y * py + m.row[0].z * pz) + m.shift.x);
+                    y += gaussian * ((m.row[1].x * px + m.row[1].y * py + m.row[1].z * pz) + m.shift.y);
+                    z += gaussian * ((m.row[2].x * px + m.row[2].y * py + m.row[2].z * pz) + m.shift.z);
+                    if (n < kMostAtoms) {
+                      pairs[n] = in.cells.residue[a];
+                      gaussians[n] = gaussian;
+                    }
+                    ++n;
+                  });
+  const Numbers inverse = 1.0F / paired;
+  CarriedLanes<Numbers> carried{inverse * x, inverse * y, inverse * z, Numbers{} + INFINITY, {}};
+  const Numbers least = kLeastShare * all;
   for (std::size_t k = 0; k < std::min(n, kMostAtoms); ++k) {
     if (any_lane(gaussians[k] >= least)) visit_places(in, pairs[k], gaussians[k], least, carried);
   }
@@ -259,11 +266,18 @@ ESPDIFF_INLINE void slip_of_block(const SlipInputs& in, const SharedAtoms& near,
   }
 }
 
-ESPDIFF_MULTIVERSION void slip_of_blocks(const SlipInputs& in, const PointList& list, std::size_t first,
-                                         std::size_t last) {
+template <std::size_t N>
+ESPDIFF_INLINE void slip_of_points(const SlipInputs& in, std::size_t begin, std::size_t end) {
   SharedAtoms near;
-  near.find(in.cells, list, first, last);
-  for (std::size_t block = first; block < last; ++block) slip_of_block(in, near, list, block);
+  near.find<N>(in.cells, in.points, begin, end);
+  for (std::size_t block = begin; block < end; block += N) slip_of_block<N>(in, near, block);
+}
+
+ESPDIFF_NARROW_VERSION void slip_narrow(const SlipInputs& in, std::size_t begin, std::size_t end) {
+  slip_of_points<kBlock>(in, begin, end);
+}
+ESPDIFF_WIDE_VERSION void slip_wide(const SlipInputs& in, std::size_t begin, std::size_t end) {
+  slip_of_points<kWideBlock>(in, begin, end);
 }
 
 #endif
@@ -280,17 +294,24 @@ std::vector<float> slip_in_form(const SurfaceMesh& source, const SurfaceMesh& ma
   const Carriers carried_by = carriers(atoms);
   const Rows places = owned_places(target, atoms);
   Buffer<float> slips(n);
-  const SlipInputs in{carried_by.cells->view(), raw(carried_by.motions), raw(places.first),
-                      raw(places.item),         target.view(),           raw(source.positions),
-                      raw(mapped.positions),    raw(target.positions),   raw(slips)};
+  SlipInputs in{carried_by.cells->view(),
+                raw(carried_by.motions),
+                raw(places.first),
+                raw(places.item),
+                target.view(),
+                raw(source.positions),
+                raw(mapped.positions),
+                raw(target.positions),
+                {},
+                raw(slips)};
 #if defined(__CUDACC__)
   static_cast<void>(by_blocks);
   by_points(in, n);
 #else
   if (by_blocks) {
     const Buffer<std::uint32_t> order = spatial_order(source.positions);
-    const PointList list{raw(source.positions), raw(order), n};
-    for_all_blocks(n, [=](std::size_t first, std::size_t last) { slip_of_blocks(in, list, first, last); });
+    in.points = {raw(source.positions), raw(order), n};
+    for_all_blocks(n, in, slip_narrow, slip_wide);
   } else {
     by_points(in, n);
   }

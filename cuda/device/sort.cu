@@ -41,23 +41,33 @@ void sort_by_key(Buffer<std::uint32_t>& keys, Buffer<std::uint32_t>& values, int
 #else
 
 // The lowest digit first, which keeps the order of equal keys. By one thread: for a surface's 100,000 keys that is
-// faster than Thrust's stable sort by two.
+// faster than Thrust's stable sort by two. Keys travel with their values, and all digits are counted at once.
 void sort_by_key(Buffer<std::uint32_t>& keys, Buffer<std::uint32_t>& values, int n_bits) {
-  constexpr int kDigitBits = 11;
+  constexpr int kDigitBits = 11, kMostDigits = 3;
   constexpr std::uint32_t kMask = (1U << kDigitBits) - 1U;
+  struct Pair {
+    std::uint32_t key, value;
+  };
   const std::size_t n = keys.size();
-  Buffer<std::uint32_t> sorted_keys(n), sorted_values(n);
-  for (int shift = 0; shift < n_bits; shift += kDigitBits) {
-    std::array<std::uint32_t, kMask + 2> place{};  // of the next key of each digit
-    for (const std::uint32_t key : keys) ++place[(key >> shift & kMask) + 1];
+  if (n < 2 || n_bits == 0) return;
+  const int n_digits = (n_bits + kDigitBits - 1) / kDigitBits;
+  std::array<std::array<std::uint32_t, kMask + 2>, kMostDigits> places{};  // [digit][its value] of the next key
+  Buffer<Pair> pairs(n), sorted(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t key = keys.begin()[i];
+    pairs.begin()[i] = {key, values.begin()[i]};
+    for (int digit = 0; digit < n_digits; ++digit)
+      ++places[static_cast<std::size_t>(digit)][(key >> digit * kDigitBits & kMask) + 1];
+  }
+  for (int digit = 0; digit < n_digits; ++digit) {
+    std::array<std::uint32_t, kMask + 2>& place = places[static_cast<std::size_t>(digit)];
     std::partial_sum(place.begin(), place.end(), place.begin());
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::uint32_t key = keys.begin()[i], to = place[key >> shift & kMask]++;
-      sorted_keys.begin()[to] = key;
-      sorted_values.begin()[to] = values.begin()[i];
-    }
-    keys.swap(sorted_keys);
-    values.swap(sorted_values);
+    for (const Pair& pair : pairs) sorted.begin()[place[pair.key >> digit * kDigitBits & kMask]++] = pair;
+    pairs.swap(sorted);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    keys.begin()[i] = pairs.begin()[i].key;
+    values.begin()[i] = pairs.begin()[i].value;
   }
 }
 

@@ -12,27 +12,18 @@ struct FlowSums {
   Number density{}, gx{}, gy{}, gz{}, blend{}, vx{}, vy{}, vz{}, rate{};
 };
 
-ESPDIFF_INLINE void square_root(float x, float& result) { result = sqrtf(x); }
-#if !defined(__CUDACC__)
-ESPDIFF_INLINE void square_root(const Lanes& x, Lanes& result) {
-  for (std::size_t lane = 0; lane < kBlock; ++lane) result[lane] = sqrtf(x[lane]);
-}
-#endif
-
-/// Adds an atom: (dx, dy, dz) from it to the point, `square` its squared length, `gaussian` its Gaussian there, 0
-/// beyond reach.
+/// Adds an atom: (dx, dy, dz) from it to the point, `square` its squared length, `root` the square root of its Gaussian
+/// there, 0 beyond reach.
 template <typename Number>
 ESPDIFF_INLINE void add_atom(FlowSums<Number>& sum, const AtomChange& change, float exponent, const Number& dx,
-                             const Number& dy, const Number& dz, const Number& square, const Number& gaussian) {
-  const Number weighted = change.weight * gaussian;
+                             const Number& dy, const Number& dz, const Number& square, const Number& root) {
+  const Number gaussian = root * root, weighted = change.weight * gaussian;
   const Number slope = exponent * weighted;
   sum.density += weighted;
   sum.gx += slope * dx;
   sum.gy += slope * dy;
   sum.gz += slope * dz;
-  Number blended{};
-  square_root(gaussian, blended);
-  blended = change.weight * blended;
+  const Number blended = change.weight * root;
   sum.blend += blended;
   sum.vx += blended * (change.velocity.x + (change.spin.y * dz - change.spin.z * dy));
   sum.vy += blended * (change.velocity.y + (change.spin.z * dx - change.spin.x * dz));
@@ -53,9 +44,9 @@ ESPDIFF_INLINE FlowSample flow_sample(float density, Vec3f gradient, float blend
 /// The flow at one point.
 ESPDIFF_INLINE FlowSample flow_at(const AtomCellsView& cells, const AtomChange* changes, Vec3f p) {
   FlowSums<float> sum;
-  sum_at_point(cells, p,
-               [&](std::uint32_t a, float k, float dx, float dy, float dz, float square, float gaussian)
-                   ESPDIFF_INLINE_LAMBDA { add_atom(sum, changes[a], k, dx, dy, dz, square, gaussian); });
+  sum_at_point<Taken::kRoot>(cells, p,
+                             [&](std::uint32_t a, float k, float dx, float dy, float dz, float square, float root)
+                                 ESPDIFF_INLINE_LAMBDA { add_atom(sum, changes[a], k, dx, dy, dz, square, root); });
   return flow_sample(sum.density, {sum.gx, sum.gy, sum.gz}, sum.blend, {sum.vx, sum.vy, sum.vz}, sum.rate);
 }
 

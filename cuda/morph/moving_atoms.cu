@@ -21,24 +21,33 @@ MovingSampling sampling(const MovingAtoms& atoms, const Buffer<Vec4f>& points, c
 
 #if !defined(__CUDACC__)
 
-ESPDIFF_INLINE void sample_moving_block(const MovingSampling& in, const SharedAtoms& near, std::size_t block) {
-  FlowSums<Lanes> sum;
-  sum_at_block(in.cells, near, in.points, block,
-               [&](std::uint32_t a, float k, const Lanes& dx, const Lanes& dy, const Lanes& dz, const Lanes& square,
-                   const Lanes& gaussian)
-                   ESPDIFF_INLINE_LAMBDA { add_atom(sum, in.change[a], k, dx, dy, dz, square, gaussian); });
-  const std::size_t begin = block * kBlock;
-  for (std::size_t lane = 0; lane < kBlock && begin + lane < in.points.n; ++lane) {
+template <std::size_t N>
+ESPDIFF_INLINE void sample_moving_block(const MovingSampling& in, const SharedAtoms& near, std::size_t begin) {
+  using Numbers = typename LaneTypes<N>::Numbers;
+  FlowSums<Numbers> sum;
+  sum_at_block<N, Taken::kRoot>(
+      in.cells, near, in.points, begin,
+      [&](std::uint32_t a, float k, const Numbers& dx, const Numbers& dy, const Numbers& dz, const Numbers& square,
+          const Numbers& root) ESPDIFF_INLINE_LAMBDA { add_atom(sum, in.change[a], k, dx, dy, dz, square, root); });
+  for (std::size_t lane = 0; lane < N && begin + lane < in.points.n; ++lane) {
     in.samples[in.points.list[begin + lane]] =
         flow_sample(sum.density[lane], {sum.gx[lane], sum.gy[lane], sum.gz[lane]}, sum.blend[lane],
                     {sum.vx[lane], sum.vy[lane], sum.vz[lane]}, sum.rate[lane]);
   }
 }
 
-ESPDIFF_MULTIVERSION void sample_moving_blocks(const MovingSampling& in, std::size_t first, std::size_t last) {
+template <std::size_t N>
+ESPDIFF_INLINE void sample_moving_points(const MovingSampling& in, std::size_t begin, std::size_t end) {
   SharedAtoms near;
-  near.find(in.cells, in.points, first, last);
-  for (std::size_t block = first; block < last; ++block) sample_moving_block(in, near, block);
+  near.find<N>(in.cells, in.points, begin, end);
+  for (std::size_t block = begin; block < end; block += N) sample_moving_block<N>(in, near, block);
+}
+
+ESPDIFF_NARROW_VERSION void sample_moving_narrow(const MovingSampling& in, std::size_t begin, std::size_t end) {
+  sample_moving_points<kBlock>(in, begin, end);
+}
+ESPDIFF_WIDE_VERSION void sample_moving_wide(const MovingSampling& in, std::size_t begin, std::size_t end) {
+  sample_moving_points<kWideBlock>(in, begin, end);
 }
 
 #endif
@@ -86,7 +95,7 @@ void flow_at_points(const MovingAtoms& atoms, const Buffer<Vec4f>& points, const
   flow_point_by_point(atoms, points, list, n, samples);
 #else
   const MovingSampling in = sampling(atoms, points, list, n, samples);
-  for_all_blocks(n, [=](std::size_t first, std::size_t last) { sample_moving_blocks(in, first, last); });
+  for_all_blocks(n, in, sample_moving_narrow, sample_moving_wide);
 #endif
 }
 

@@ -38,12 +38,9 @@ ESPDIFF_INLINE LaneVector from_corner(const LaneVector& p, const Vec3f& corner) 
   return {p.x - corner.x, p.y - corner.y, p.z - corner.z};
 }
 ESPDIFF_INLINE Lanes dot_lanes(const LaneVector& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-ESPDIFF_INLINE LaneVector cross_lanes(const Vec3f& a, const LaneVector& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 ESPDIFF_INLINE Lanes outside_lanes(const Lanes& x, float lower, float upper) {
-  return larger_lanes(larger_lanes(lower - x, x - upper), Lanes{});
+  return larger_lanes<Lanes>(larger_lanes<Lanes>(lower - x, x - upper), Lanes{});
 }
 
 // Inlined into each instruction set's version, unlike those of Vec3.
@@ -56,8 +53,8 @@ ESPDIFF_INLINE Vec3f minus(const Vec3f& a, const Vec3f& b) { return {a.x - b.x, 
 /// squared_distance_to_segment() per lane; a segment without length gives t = 0.
 ESPDIFF_INLINE Lanes segment_lanes(const LaneVector& ap, const Vec3f& ab) {
   const float length_squared = dot_here(ab, ab);
-  Lanes t = dot_lanes(ap, ab) / (length_squared > 0 ? length_squared : 1.0F);
-  t = smaller_lanes(larger_lanes(t, Lanes{}), Lanes{} + 1.0F);
+  const float inverse = length_squared > 0 ? 1.0F / length_squared : 0.0F;
+  const Lanes t = smaller_lanes<Lanes>(larger_lanes<Lanes>(dot_lanes(ap, ab) * inverse, Lanes{}), Lanes{} + 1.0F);
   const Lanes dx = ap.x - t * ab.x, dy = ap.y - t * ab.y, dz = ap.z - t * ab.z;
   return dx * dx + dy * dy + dz * dz;
 }
@@ -71,11 +68,11 @@ ESPDIFF_INLINE Lanes triangle_lanes(const LaneVector& p, const PlacedTriangle& t
   const Lanes edges = smaller_lanes(segment_lanes(pa, ab), smaller_lanes(segment_lanes(pb, bc), segment_lanes(pc, ca)));
   if (!(nn > 0)) return edges;
   // Negative where the foot on the plane lies beside the face.
-  const Lanes inside =
-      smaller_lanes(dot_lanes(cross_lanes(ab, pa), n),
-                    smaller_lanes(dot_lanes(cross_lanes(bc, pb), n), dot_lanes(cross_lanes(ca, pc), n)));
+  const Lanes inside = smaller_lanes(dot_lanes(pa, cross_here(n, ab)),
+                                     smaller_lanes(dot_lanes(pb, cross_here(n, bc)), dot_lanes(pc, cross_here(n, ca))));
   const Lanes height = dot_lanes(pa, n);
-  return chosen(inside < Lanes{}, edges, height * height / nn);
+  const LaneMask beside = inside < Lanes{};
+  return chosen<LaneMask, Lanes>(beside, edges, height * height * (1.0F / nn));
 }
 
 /// squared_distance_to_box() per lane.
@@ -132,8 +129,8 @@ ESPDIFF_INLINE Lanes nearest_of_lanes(const TriangleTreeView& tree, const LaneVe
   }
 }
 
-ESPDIFF_INLINE void search_block(const NearestSearch& in, std::size_t block, std::uint32_t& guess) {
-  const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, in.points.n);
+ESPDIFF_INLINE void search_block(const NearestSearch& in, std::size_t begin, std::uint32_t& guess) {
+  const std::size_t end = std::min(begin + kBlock, in.points.n);
   float x[kBlock], y[kBlock], z[kBlock];
   for (std::size_t lane = 0; lane < kBlock; ++lane) {
     const Vec3f point = in.points.points[in.points.list[std::min(begin + lane, end - 1)]].xyz();
@@ -150,9 +147,9 @@ ESPDIFF_INLINE void search_block(const NearestSearch& in, std::size_t block, std
     in.distances[in.points.list[begin + lane]] = sqrtf(nearest[lane]);
 }
 
-ESPDIFF_MULTIVERSION void search_blocks(const NearestSearch& in, std::size_t first, std::size_t last) {
-  std::uint32_t guess = guess_at(std::min(first * kBlock, in.points.n), in.points.n, in.tree.n_triangles);
-  for (std::size_t block = first; block < last; ++block) search_block(in, block, guess);
+ESPDIFF_MULTIVERSION void search_blocks(const NearestSearch& in, std::size_t begin, std::size_t end) {
+  std::uint32_t guess = guess_at(begin, in.points.n, in.tree.n_triangles);
+  for (std::size_t block = begin; block < end; block += kBlock) search_block(in, block, guess);
 }
 
 #endif
@@ -185,7 +182,7 @@ Buffer<float> distances_to_triangles(const TriangleTree& tree, const Buffer<Vec4
   const Buffer<std::uint32_t> order = spatial_order(points);
   Buffer<float> distances(points.size());
   const NearestSearch in{tree.view(), {raw(points), raw(order), points.size()}, raw(distances)};
-  for_all_blocks(points.size(), [=](std::size_t first, std::size_t last) { search_blocks(in, first, last); });
+  for_all_blocks(points.size(), in, search_blocks, search_blocks);
   return distances;
 #endif
 }

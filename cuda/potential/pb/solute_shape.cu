@@ -229,7 +229,7 @@ void SoluteShape::depths_by_planes(const CubicLattice& lattice, Buffer<float>& d
       view_of(atoms_, probes_, probe_, lattice.spacing), lattice, atoms_.radius.size(), nullptr, nullptr, raw(depths)};
   // Probes sorted by plane.
   std::vector<std::uint32_t> first(static_cast<std::size_t>(lattice.size[2]) + 1, 0), probes;
-  const std::size_t n_probes = probes_ ? probes_->x.size() : 0;
+  const std::size_t n_probes = probes_ ? probes_->n_atoms() : 0;
   const auto planes_of = [&](std::size_t c) {
     const float z = raw(probes_->z)[c] - lattice.origin.z;
     const int low = static_cast<int>(std::ceil((z - fill.shape.reach) / lattice.spacing)),

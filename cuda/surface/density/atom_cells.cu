@@ -16,6 +16,8 @@ namespace {
 /// Cells per reach: small cells let a query skip most atoms out of reach.
 constexpr float kCellsPerReach = 3.0F;
 constexpr double kMaxCells = 6.4e7;
+/// Room after the last atom, for the CPU's loads of whole vectors.
+constexpr std::size_t kAtomsBeyond = 16;
 
 /// An atom as it is sent to the device.
 struct SentAtom {
@@ -99,7 +101,8 @@ std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, 
   Rows rows = sort_into_rows(std::move(cell_of), static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
                                                      static_cast<std::size_t>(size[2]));
   cells->first = std::move(rows.first);
-  for (Buffer<float>* values : {&cells->x, &cells->y, &cells->z, &cells->exponent, &cells->reach}) values->resize(n);
+  for (Buffer<float>* values : {&cells->x, &cells->y, &cells->z, &cells->exponent, &cells->reach})
+    values->resize(n + kAtomsBeyond);
   cells->residue.resize(n);
   float *const x = raw(cells->x), *const y = raw(cells->y), *const z = raw(cells->z),
                *const exponent = raw(cells->exponent), *const reach = raw(cells->reach);

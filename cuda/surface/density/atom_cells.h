@@ -32,7 +32,7 @@ struct AtomCellsView {
 
 /// Atoms in a cell list.
 struct AtomCells : DeviceAtoms {
-  Buffer<float> x, y, z, exponent, reach;
+  Buffer<float> x, y, z, exponent, reach;  ///< with room after the last atom, for loads of whole vectors
   Buffer<std::int32_t> residue;
   Buffer<std::uint32_t> first;
   std::array<int, 3> size{};
@@ -41,6 +41,7 @@ struct AtomCells : DeviceAtoms {
   float max_reach = 0;
   Vec3d lower{}, upper{};  ///< box that holds every atom's reach
 
+  std::size_t n_atoms() const { return residue.size(); }
   AtomCellsView view() const;
 };
 

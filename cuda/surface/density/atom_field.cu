@@ -71,22 +71,31 @@ void read_by_points(const Reading& in, AtomWeight weight) {
 
 #if !defined(__CUDACC__)
 
-ESPDIFF_INLINE void mean_block(const Reading& in, const SharedAtoms& near, std::size_t block) {
-  ValueSums<Lanes> sums;
-  sum_at_block(
-      in.cells, near, in.points, block,
-      [&](std::uint32_t a, float, const Lanes&, const Lanes&, const Lanes&, const Lanes&, const Lanes& gaussian)
-          ESPDIFF_INLINE_LAMBDA { sums.add(in.values[a].value, in.values[a].has_value, gaussian); });
-  const std::size_t begin = block * kBlock;
-  for (std::size_t lane = 0; lane < kBlock && begin + lane < in.points.n; ++lane)
+template <std::size_t N>
+ESPDIFF_INLINE void mean_block(const Reading& in, const SharedAtoms& near, std::size_t begin) {
+  using Numbers = typename LaneTypes<N>::Numbers;
+  ValueSums<Numbers> sums;
+  sum_at_block<N>(in.cells, near, in.points, begin,
+                  [&](std::uint32_t a, float, const Numbers&, const Numbers&, const Numbers&, const Numbers&,
+                      const Numbers& gaussian)
+                      ESPDIFF_INLINE_LAMBDA { sums.add(in.values[a].value, in.values[a].has_value, gaussian); });
+  for (std::size_t lane = 0; lane < N && begin + lane < in.points.n; ++lane)
     in.result[in.points.list[begin + lane]] =
         mean_of(in.origin, sums.density[lane], sums.known[lane], sums.value[lane]);
 }
 
-ESPDIFF_MULTIVERSION void mean_blocks(const Reading& in, std::size_t first, std::size_t last) {
+template <std::size_t N>
+ESPDIFF_INLINE void mean_points(const Reading& in, std::size_t begin, std::size_t end) {
   SharedAtoms near;
-  near.find(in.cells, in.points, first, last);
-  for (std::size_t block = first; block < last; ++block) mean_block(in, near, block);
+  near.find<N>(in.cells, in.points, begin, end);
+  for (std::size_t block = begin; block < end; block += N) mean_block<N>(in, near, block);
+}
+
+ESPDIFF_NARROW_VERSION void mean_narrow(const Reading& in, std::size_t begin, std::size_t end) {
+  mean_points<kBlock>(in, begin, end);
+}
+ESPDIFF_WIDE_VERSION void mean_wide(const Reading& in, std::size_t begin, std::size_t end) {
+  mean_points<kWideBlock>(in, begin, end);
 }
 
 #endif
@@ -141,7 +150,7 @@ Buffer<float> atom_field(const SurfaceMesh& mesh, const AtomValues& atoms) {
   const Buffer<std::uint32_t> order = spatial_order(mesh.positions);
   Buffer<float> result(n);
   const Reading in = uploaded.reading({raw(mesh.positions), raw(order), n}, result);
-  for_all_blocks(n, [=](std::size_t first, std::size_t last) { mean_blocks(in, first, last); });
+  for_all_blocks(n, in, mean_narrow, mean_wide);
   return result;
 #endif
 }

@@ -14,21 +14,30 @@ struct Sampling {
 
 #if !defined(__CUDACC__)
 
-ESPDIFF_INLINE void sample_block(const Sampling& in, const SharedAtoms& near, std::size_t block) {
-  DensitySums<Lanes> sum;
-  sum_at_block(in.cells, near, in.points, block,
-               [&](std::uint32_t, float k, const Lanes& dx, const Lanes& dy, const Lanes& dz, const Lanes&,
-                   const Lanes& gaussian) ESPDIFF_INLINE_LAMBDA { add_atom(sum, k, dx, dy, dz, gaussian); });
-  const std::size_t begin = block * kBlock;
-  for (std::size_t lane = 0; lane < kBlock && begin + lane < in.points.n; ++lane)
+template <std::size_t N>
+ESPDIFF_INLINE void sample_block(const Sampling& in, const SharedAtoms& near, std::size_t begin) {
+  using Numbers = typename LaneTypes<N>::Numbers;
+  DensitySums<Numbers> sum;
+  sum_at_block<N>(in.cells, near, in.points, begin,
+                  [&](std::uint32_t, float k, const Numbers& dx, const Numbers& dy, const Numbers& dz, const Numbers&,
+                      const Numbers& gaussian) ESPDIFF_INLINE_LAMBDA { add_atom(sum, k, dx, dy, dz, gaussian); });
+  for (std::size_t lane = 0; lane < N && begin + lane < in.points.n; ++lane)
     in.samples[in.points.list[begin + lane]] = {sum.value[lane],
                                                 2.0F * Vec3f{sum.gx[lane], sum.gy[lane], sum.gz[lane]}};
 }
 
-ESPDIFF_MULTIVERSION void sample_blocks(const Sampling& in, std::size_t first, std::size_t last) {
+template <std::size_t N>
+ESPDIFF_INLINE void sample_points(const Sampling& in, std::size_t begin, std::size_t end) {
   SharedAtoms near;
-  near.find(in.cells, in.points, first, last);
-  for (std::size_t block = first; block < last; ++block) sample_block(in, near, block);
+  near.find<N>(in.cells, in.points, begin, end);
+  for (std::size_t block = begin; block < end; block += N) sample_block<N>(in, near, block);
+}
+
+ESPDIFF_NARROW_VERSION void sample_narrow(const Sampling& in, std::size_t begin, std::size_t end) {
+  sample_points<kBlock>(in, begin, end);
+}
+ESPDIFF_WIDE_VERSION void sample_wide(const Sampling& in, std::size_t begin, std::size_t end) {
+  sample_points<kWideBlock>(in, begin, end);
 }
 
 #endif
@@ -50,7 +59,7 @@ void density_at_points(const AtomCells& atoms, const Buffer<Vec4f>& points, cons
   density_point_by_point(atoms, points, list, n, samples);
 #else
   const Sampling in{atoms.view(), {raw(points), raw(list), n}, raw(samples)};
-  for_all_blocks(n, [=](std::size_t first, std::size_t last) { sample_blocks(in, first, last); });
+  for_all_blocks(n, in, sample_narrow, sample_wide);
 #endif
 }
 

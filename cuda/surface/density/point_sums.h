@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "cuda/device/lanes.h"
 #include "cuda/surface/density/atom_cells.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -17,66 +18,44 @@ struct PointList {
   std::size_t n;
 };
 
-/// Calls add(atom, exponent, dx, dy, dz, square, gaussian) with floats for each atom that reaches p, in the order of
-/// the cell list. (dx, dy, dz) points from the atom to the point; `square` is its squared length.
-template <typename Add>
+/// What a sum over atoms takes: their Gaussians, or the square roots of those, which are Gaussians too.
+enum class Taken { kGaussian, kRoot };
+
+template <Taken What>
+constexpr float share_of = What == Taken::kRoot ? 0.5F : 1.0F;
+
+/// Calls add(atom, exponent, dx, dy, dz, square, taken) with floats for each atom that reaches p, in the order of the
+/// cell list. (dx, dy, dz) points from the atom to the point; `square` is its squared length.
+template <Taken What = Taken::kGaussian, typename Add>
 ESPDIFF_INLINE void sum_at_point(const AtomCellsView& cells, Vec3f p, Add add) {
   visit_atom_runs(cells, p, cells.max_reach, [&](std::uint32_t begin, std::uint32_t end) ESPDIFF_INLINE_LAMBDA {
     for (std::uint32_t a = begin; a < end; ++a) {
       const float dx = p.x - cells.x[a], dy = p.y - cells.y[a], dz = p.z - cells.z[a];
       const float k = cells.exponent[a];
       const float square = dx * dx + dy * dy + dz * dz;
-      if (k * square > kCutoffExponent) add(a, k, dx, dy, dz, square, exp_of_negative(k * square));
+      if (k * square > kCutoffExponent) add(a, k, dx, dy, dz, square, exp_of_negative(share_of<What> * (k * square)));
     }
   });
 }
 
 #if !defined(__CUDACC__)
 
-/// Points per block, one per lane. Comparisons and minima of wider vectors than the processor's are taken apart into
-/// single lanes by GCC 12, so blocks are no wider than AVX2's vectors.
-constexpr std::size_t kBlock = 8;
-using Lanes = float __attribute__((vector_size(kBlock * sizeof(float))));
-using LaneMask = std::int32_t __attribute__((vector_size(kBlock * sizeof(float))));
-using LaneBits = std::uint32_t __attribute__((vector_size(kBlock * sizeof(float))));
-
-/// `a` where the mask is set, otherwise `b`. The mask should be one comparison: GCC 12 takes a combination of
-/// comparisons apart into single lanes.
-ESPDIFF_INLINE Lanes chosen(const LaneMask& mask, const Lanes& a, const Lanes& b) {
-  return (Lanes)(((LaneMask)a & mask) | ((LaneMask)b & ~mask));
-}
-ESPDIFF_INLINE LaneMask chosen(const LaneMask& mask, const LaneMask& a, const LaneMask& b) {
-  return (a & mask) | (b & ~mask);
-}
-/// In this form GCC takes one instruction for it.
-ESPDIFF_INLINE Lanes smaller_lanes(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
-ESPDIFF_INLINE Lanes larger_lanes(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
-ESPDIFF_INLINE LaneMask smaller_lanes(const LaneMask& a, const LaneMask& b) { return a < b ? a : b; }
-
-/// All pairs of lanes in one word by "or". Halves are joined first, because taking out words is slow.
-ESPDIFF_INLINE std::uint64_t joined_words(const LaneMask& mask) {
-  using Words = std::uint64_t __attribute__((vector_size(sizeof(LaneMask))));
-  const Words all = (Words)mask;
-  const auto half = __builtin_shufflevector(all, all, 0, 1) | __builtin_shufflevector(all, all, 2, 3);
-  return half[0] | half[1];
-}
-
-ESPDIFF_INLINE bool any_lane(const LaneMask& mask) { return joined_words(mask) != 0; }
-
 /// exp_of_negative() per lane. Casts between vectors keep their bits.
-ESPDIFF_INLINE void exp_of_negative_lanes(const Lanes& x, Lanes& result) {
-  const Lanes t = x * 1.44269504F;
+template <typename Numbers>
+ESPDIFF_INLINE void exp_of_negative_lanes(const Numbers& x, Numbers& result) {
+  using Bits = typename TypesOf<Numbers>::Bits;
+  const Numbers t = x * 1.44269504F;
   constexpr float kRound = 12582912.0F;
-  const Lanes rounded = t + kRound;
-  const Lanes f = t - (rounded - kRound);
-  Lanes p = 1.5403530e-4F * f + 1.3333558e-3F;
+  const Numbers rounded = t + kRound;
+  const Numbers f = t - (rounded - kRound);
+  Numbers p = 1.5403530e-4F * f + 1.3333558e-3F;
   p = p * f + 9.6181291e-3F;
   p = p * f + 5.5504109e-2F;
   p = p * f + 2.4022651e-1F;
   p = p * f + 6.9314718e-1F;
   p = p * f + 1.0F;
-  const LaneBits scale = ((LaneBits)rounded + 127U) << 23;
-  result = p * (Lanes)scale;
+  const Bits scale = ((Bits)rounded + 127U) << 23;
+  result = p * (Numbers)scale;
 }
 
 struct BlockBox {
@@ -98,9 +77,9 @@ ESPDIFF_INLINE BlockBox box_of_points(const PointList& in, std::size_t first, st
 struct NearAtoms {
   static constexpr std::size_t kMost = 1024;  ///< 64 points of a surface have about 200
   std::size_t n;
-  float x[kMost + kBlock], y[kMost + kBlock], z[kMost + kBlock];
-  float square[kMost + kBlock];  ///< of the reach, and a little more; negative in the lanes after the last atom
-  std::uint32_t atom[kMost + kBlock];
+  float x[kMost + kWideBlock], y[kMost + kWideBlock], z[kMost + kWideBlock];
+  float square[kMost + kWideBlock];  ///< of the reach, and a little more; negative in the lanes after the last atom
+  std::uint32_t atom[kMost + kWideBlock];
 };
 
 /// A walk through the cells near a box, which pauses when a list of atoms is full.
@@ -132,30 +111,48 @@ ESPDIFF_INLINE float gap_to_cells(const AtomCellsView& cells, int index, int axi
   return larger(larger(begin - high, low - (begin + 1.02F * cells.cell)), 0.0F);
 }
 
+/// The lanes of atoms, from `at` on, that may reach the box, as bits.
+/// @param square [lane] of the reach, and a little more
+template <typename Numbers>
+ESPDIFF_INLINE std::uint32_t lanes_within(const BlockBox& box, const float* atom_x, const float* atom_y,
+                                          const float* atom_z, const Numbers& square) {
+  Numbers x, y, z;
+  load_lanes(atom_x, x);
+  load_lanes(atom_y, y);
+  load_lanes(atom_z, z);
+  const Numbers dx = larger_lanes<Numbers>(larger_lanes<Numbers>(box.lower.x - x, x - box.upper.x), Numbers{}),
+                dy = larger_lanes<Numbers>(larger_lanes<Numbers>(box.lower.y - y, y - box.upper.y), Numbers{}),
+                dz = larger_lanes<Numbers>(larger_lanes<Numbers>(box.lower.z - z, z - box.upper.z), Numbers{});
+  // The sign instead of a comparison.
+  return bits_of((MaskOf<Numbers>)((dx * dx + dy * dy + dz * dz) - square) >> 31);
+}
+
 /// Lists atoms begin .. end-1 if they may reach the box.
+template <std::size_t N>
 ESPDIFF_INLINE void list_atoms(const AtomCellsView& cells, const BlockBox& box, std::uint32_t begin, std::uint32_t end,
                                NearAtoms& near) {
+  using Numbers = typename LaneTypes<N>::Numbers;
   std::size_t n = near.n;
-  for (std::uint32_t a = begin; a < end; ++a) {
-    const float x = cells.x[a], y = cells.y[a], z = cells.z[a], widest = 1.0001F * cells.reach[a];
-    const float dx = larger(larger(box.lower.x - x, x - box.upper.x), 0.0F),
-                dy = larger(larger(box.lower.y - y, y - box.upper.y), 0.0F),
-                dz = larger(larger(box.lower.z - z, z - box.upper.z), 0.0F);
-    near.x[n] = x;
-    near.y[n] = y;
-    near.z[n] = z;
-    near.square[n] = widest * widest;
-    near.atom[n] = a;
-    // The sign instead of a branch, which could not be predicted.
-    const float excess = (dx * dx + dy * dy + dz * dz) - widest * widest;
-    std::uint32_t bits;
-    std::memcpy(&bits, &excess, sizeof bits);
-    n += bits >> 31U;
+  for (std::uint32_t at = begin; at < end; at += N) {
+    Numbers reach;
+    load_lanes(cells.reach + at, reach);
+    const Numbers widest = 1.0001F * reach;
+    std::uint32_t within = lanes_within<Numbers>(box, cells.x + at, cells.y + at, cells.z + at, widest * widest);
+    if (end - at < N) within &= (1U << (end - at)) - 1U;
+    for (; within != 0; within &= within - 1) {
+      const std::uint32_t a = at + static_cast<std::uint32_t>(__builtin_ctz(within));
+      near.x[n] = cells.x[a];
+      near.y[n] = cells.y[a];
+      near.z[n] = cells.z[a];
+      near.square[n] = (1.0001F * cells.reach[a]) * (1.0001F * cells.reach[a]);
+      near.atom[n++] = a;
+    }
   }
   near.n = n;
 }
 
 /// Lists the next atoms of the walk, as many as there is room for.
+template <std::size_t N>
 ESPDIFF_INLINE void list_next_atoms(const AtomCellsView& cells, CellWalk& walk, NearAtoms& near) {
   near.n = 0;
   const float reach = 1.0001F * cells.max_reach;
@@ -168,7 +165,7 @@ ESPDIFF_INLINE void list_next_atoms(const AtomCellsView& cells, CellWalk& walk, 
       const int row = cells.size[0] * (walk.y + cells.size[1] * walk.z);
       const std::uint32_t begin = std::max(walk.atom, cells.first[row + walk.x0]), end = cells.first[row + walk.x1 + 1];
       const std::uint32_t room = static_cast<std::uint32_t>(NearAtoms::kMost - near.n);
-      if (begin < end) list_atoms(cells, walk.box, begin, std::min(end, begin + room), near);
+      if (begin < end) list_atoms<N>(cells, walk.box, begin, std::min(end, begin + room), near);
       walk.is_done = begin + room >= end;
       walk.atom = begin + room;
       if (!walk.is_done) break;
@@ -176,53 +173,44 @@ ESPDIFF_INLINE void list_next_atoms(const AtomCellsView& cells, CellWalk& walk, 
     if (!walk.is_done) break;
     walk.y = walk.y0;
   }
-  for (std::size_t lane = 0; lane < kBlock; ++lane) {
+  for (std::size_t lane = 0; lane < kWideBlock; ++lane) {
     near.x[near.n + lane] = near.y[near.n + lane] = near.z[near.n + lane] = 0.0F;
     near.square[near.n + lane] = -1.0F;
   }
 }
 
-/// Atoms near several blocks of a list of points. Blocks share them where they all fit into the list; otherwise each
-/// block walks by itself.
+/// Atoms near some points of a list. Blocks share them where they all fit into the list; otherwise each block walks by
+/// itself.
 struct SharedAtoms {
   bool is_complete;
   NearAtoms near;
 
-  ESPDIFF_INLINE void find(const AtomCellsView& cells, const PointList& in, std::size_t first_block,
-                           std::size_t last_block) {
-    CellWalk walk = walk_near(cells, box_of_points(in, first_block * kBlock, std::min(last_block * kBlock, in.n)));
-    list_next_atoms(cells, walk, near);
+  template <std::size_t N>
+  ESPDIFF_INLINE void find(const AtomCellsView& cells, const PointList& in, std::size_t begin, std::size_t end) {
+    CellWalk walk = walk_near(cells, box_of_points(in, begin, end));
+    list_next_atoms<N>(cells, walk, near);
     is_complete = walk.is_done;
   }
 };
 
-ESPDIFF_INLINE void load_lanes(const float* values, Lanes& lanes) { std::memcpy(&lanes, values, sizeof lanes); }
-
-/// Bit k is set where the k-th of the atoms from `at` on may reach the box.
+/// Bit k is set where the k-th of the N atoms from `at` on may reach the box.
+template <std::size_t N>
 ESPDIFF_INLINE std::uint32_t atoms_within(const NearAtoms& near, std::size_t at, const BlockBox& box) {
-  static_assert(kBlock == 8);
-  Lanes x, y, z, square;
-  load_lanes(near.x + at, x);
-  load_lanes(near.y + at, y);
-  load_lanes(near.z + at, z);
+  typename LaneTypes<N>::Numbers square;
   load_lanes(near.square + at, square);
-  const Lanes dx = larger_lanes(larger_lanes(box.lower.x - x, x - box.upper.x), Lanes{}),
-              dy = larger_lanes(larger_lanes(box.lower.y - y, y - box.upper.y), Lanes{}),
-              dz = larger_lanes(larger_lanes(box.lower.z - z, z - box.upper.z), Lanes{});
-  // The sign instead of a comparison.
-  const LaneMask is_near = (LaneMask)((dx * dx + dy * dy + dz * dz) - square) >> 31;
-  const std::uint64_t words = joined_words(is_near & LaneMask{1, 2, 4, 8, 16, 32, 64, 128});
-  return static_cast<std::uint32_t>(words | (words >> 32U));
+  return lanes_within(box, near.x + at, near.y + at, near.z + at, square);
 }
 
-/// Calls add(atom, exponent, dx, dy, dz, square, gaussian) with one lane per point of the block, for each atom that
-/// reaches any of them. The Gaussian is 0 in lanes that it does not reach.
-template <typename Add>
+/// Calls add(atom, exponent, dx, dy, dz, square, taken) with one lane per point of the block of N that begins at
+/// `begin`, for each atom that reaches any of them. What is taken is 0 in lanes that the atom does not reach.
+template <std::size_t N, Taken What = Taken::kGaussian, typename Add>
 ESPDIFF_INLINE void sum_at_block(const AtomCellsView& cells, const SharedAtoms& shared, const PointList& in,
-                                 std::size_t block, Add add) {
-  const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, in.n);
-  Lanes px, py, pz;
-  for (std::size_t lane = 0; lane < kBlock; ++lane) {
+                                 std::size_t begin, Add add) {
+  using Numbers = typename LaneTypes<N>::Numbers;
+  using Mask = typename LaneTypes<N>::Mask;
+  const std::size_t end = std::min(begin + N, in.n);
+  Numbers px, py, pz;
+  for (std::size_t lane = 0; lane < N; ++lane) {
     const Vec3f p = in.points[in.list[std::min(begin + lane, end - 1)]].xyz();
     px[lane] = p.x;
     py[lane] = p.y;
@@ -231,39 +219,41 @@ ESPDIFF_INLINE void sum_at_block(const AtomCellsView& cells, const SharedAtoms& 
   const BlockBox box = box_of_points(in, begin, end);
   CellWalk walk = walk_near(cells, box);
   NearAtoms own;
-  if (!shared.is_complete) list_next_atoms(cells, walk, own);
+  if (!shared.is_complete) list_next_atoms<N>(cells, walk, own);
   const NearAtoms& near = shared.is_complete ? shared.near : own;
   walk.is_done = walk.is_done || shared.is_complete;
   for (std::size_t at = 0;;) {
     if (at >= near.n) {
       if (walk.is_done) break;
-      list_next_atoms(cells, walk, own);
+      list_next_atoms<N>(cells, walk, own);
       at = 0;
       continue;
     }
-    for (std::uint32_t within = atoms_within(near, at, box); within != 0; within &= within - 1) {
+    for (std::uint32_t within = atoms_within<N>(near, at, box); within != 0; within &= within - 1) {
       const std::uint32_t a = near.atom[at + static_cast<std::size_t>(__builtin_ctz(within))];
       const float k = cells.exponent[a];
-      const Lanes dx = px - cells.x[a], dy = py - cells.y[a], dz = pz - cells.z[a];
-      const Lanes square = dx * dx + dy * dy + dz * dz;
-      const Lanes argument = k * square;
-      const LaneMask counts = argument > kCutoffExponent;
-      Lanes exponential;
-      exp_of_negative_lanes((Lanes)((LaneMask)argument & counts), exponential);
-      add(a, k, dx, dy, dz, square, (Lanes)((LaneMask)exponential & counts));
+      const Numbers dx = px - cells.x[a], dy = py - cells.y[a], dz = pz - cells.z[a];
+      const Numbers square = dx * dx + dy * dy + dz * dz;
+      const Numbers argument = k * square;
+      const Mask counts = argument > kCutoffExponent;
+      Numbers exponential;
+      exp_of_negative_lanes<Numbers>(share_of<What> * (Numbers)((Mask)argument & counts), exponential);
+      add(a, k, dx, dy, dz, square, (Numbers)((Mask)exponential & counts));
     }
-    at += kBlock;
+    at += N;
   }
 }
 
-/// Calls blocks(first, last) in parallel for ranges of blocks that together hold n points. `blocks` is compiled for
-/// several instruction sets; each call takes several blocks, so the dispatch is cheap.
-template <typename Blocks>
-void for_all_blocks(std::size_t n, Blocks blocks) {
-  constexpr std::size_t kBlocksPerCall = 8;
-  const std::size_t n_blocks = (n + kBlock - 1) / kBlock;
-  for_each_index((n_blocks + kBlocksPerCall - 1) / kBlocksPerCall, [=](std::size_t call) {
-    blocks(call * kBlocksPerCall, std::min((call + 1) * kBlocksPerCall, n_blocks));
+/// Calls points_of(in, begin, end), in parallel, for ranges of n listed points that hold whole blocks, but for the
+/// last. The narrow form goes through them in blocks of kBlock, the wide one in blocks of kWideBlock, with the same
+/// bits.
+template <typename Input>
+void for_all_blocks(std::size_t n, const Input& in, void (*narrow)(const Input&, std::size_t, std::size_t),
+                    void (*wide)(const Input&, std::size_t, std::size_t)) {
+  constexpr std::size_t kPointsPerCall = 64;
+  const auto points_of = has_wide_vectors() ? wide : narrow;
+  for_each_index((n + kPointsPerCall - 1) / kPointsPerCall, [=](std::size_t call) {
+    points_of(in, call * kPointsPerCall, std::min((call + 1) * kPointsPerCall, n));
   });
 }
 

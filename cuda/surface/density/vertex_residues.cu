@@ -70,17 +70,18 @@ struct Labelling {
 };
 
 /// Densities by label at the points of a block. Labels are found by a hash table with open addresses.
+template <typename Numbers>
 struct BlockTally {
   static constexpr std::uint32_t kSlots = 1024;
   std::int16_t slot[kSlots];
   std::int32_t label[kMostLabels];
-  Lanes density[kMostLabels];
+  Numbers density[kMostLabels];
   int n = 0;
   bool is_full = false;
 
   ESPDIFF_INLINE void clear() { std::fill(slot, slot + kSlots, std::int16_t{-1}); }
 
-  ESPDIFF_INLINE void add(std::int32_t which, const Lanes& amount) {
+  ESPDIFF_INLINE void add(std::int32_t which, const Numbers& amount) {
     std::uint32_t at = (static_cast<std::uint32_t>(which) * 2654435761U) >> 22U;
     while (slot[at] >= 0 && label[slot[at]] != which) at = (at + 1) % kSlots;
     if (slot[at] >= 0) {
@@ -95,37 +96,47 @@ struct BlockTally {
   }
 
   /// Per lane. Labels that do not reach a lane have no density there; -1 is the smallest and stays if none does.
-  ESPDIFF_INLINE void strongest(LaneMask& result) const {
-    Lanes most{};
-    result = LaneMask{} - 1;
+  ESPDIFF_INLINE void strongest(MaskOf<Numbers>& result) const {
+    using Labels = MaskOf<Numbers>;
+    Numbers most{};
+    result = Labels{} - 1;
     for (int i = 0; i < n; ++i) {
-      const LaneMask own = LaneMask{} + label[i];
-      const LaneMask of_equal = smaller_lanes(own, result);
+      const Labels own = Labels{} + label[i];
+      const Labels of_equal = smaller_lanes(own, result);
       result = chosen(density[i] == most, of_equal, chosen(most < density[i], own, result));
       most = chosen(most < density[i], density[i], most);
     }
   }
 };
 
-ESPDIFF_INLINE void label_block(const Labelling& in, const SharedAtoms& near, std::size_t block) {
-  BlockTally tally;
+template <std::size_t N>
+ESPDIFF_INLINE void label_block(const Labelling& in, const SharedAtoms& near, std::size_t begin) {
+  using Numbers = typename LaneTypes<N>::Numbers;
+  BlockTally<Numbers> tally;
   tally.clear();
-  sum_at_block(in.cells, near, in.points, block,
-               [&](std::uint32_t a, float, const Lanes&, const Lanes&, const Lanes&, const Lanes&,
-                   const Lanes& gaussian) ESPDIFF_INLINE_LAMBDA { tally.add(in.cells.residue[a], gaussian); });
-  LaneMask strongest;
+  sum_at_block<N>(in.cells, near, in.points, begin,
+                  [&](std::uint32_t a, float, const Numbers&, const Numbers&, const Numbers&, const Numbers&,
+                      const Numbers& gaussian) ESPDIFF_INLINE_LAMBDA { tally.add(in.cells.residue[a], gaussian); });
+  MaskOf<Numbers> strongest;
   tally.strongest(strongest);
-  const std::size_t begin = block * kBlock;
-  for (std::size_t lane = 0; lane < kBlock && begin + lane < in.points.n; ++lane) {
+  for (std::size_t lane = 0; lane < N && begin + lane < in.points.n; ++lane) {
     const std::uint32_t point = in.points.list[begin + lane];
     in.labels[point] = tally.is_full ? label_at(in.cells, in.points.points[point].xyz()) : strongest[lane];
   }
 }
 
-ESPDIFF_MULTIVERSION void label_blocks(const Labelling& in, std::size_t first, std::size_t last) {
+template <std::size_t N>
+ESPDIFF_INLINE void label_points(const Labelling& in, std::size_t begin, std::size_t end) {
   SharedAtoms near;
-  near.find(in.cells, in.points, first, last);
-  for (std::size_t block = first; block < last; ++block) label_block(in, near, block);
+  near.find<N>(in.cells, in.points, begin, end);
+  for (std::size_t block = begin; block < end; block += N) label_block<N>(in, near, block);
+}
+
+ESPDIFF_NARROW_VERSION void label_narrow(const Labelling& in, std::size_t begin, std::size_t end) {
+  label_points<kBlock>(in, begin, end);
+}
+ESPDIFF_WIDE_VERSION void label_wide(const Labelling& in, std::size_t begin, std::size_t end) {
+  label_points<kWideBlock>(in, begin, end);
 }
 
 #endif
@@ -149,7 +160,7 @@ Buffer<std::int32_t> vertex_residues(const SurfaceMesh& mesh, const AtomCells& a
   const Buffer<std::uint32_t> order = spatial_order(mesh.positions);
   Buffer<std::int32_t> labels(n);
   const Labelling in{atoms.view(), {raw(mesh.positions), raw(order), n}, raw(labels)};
-  for_all_blocks(n, [=](std::size_t first, std::size_t last) { label_blocks(in, first, last); });
+  for_all_blocks(n, in, label_narrow, label_wide);
   return labels;
 #endif
 }

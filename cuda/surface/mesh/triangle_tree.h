@@ -55,9 +55,8 @@ TriangleTree make_triangle_tree(const SurfaceMesh& mesh);
 /// face, on an edge or at a corner; if the foot on the plane falls outside the face, it lies on one of the three edges.
 ESPDIFF_INLINE float squared_distance_to_segment(Vec3f p, Vec3f a, Vec3f b) {
   const Vec3f ab = b - a, ap = p - a;
-  const float length_squared = dot(ab, ab);
-  const float t = length_squared > 0 ? smaller(larger(dot(ap, ab) / length_squared, 0.0F), 1.0F) : 0.0F;
-  const Vec3f d = ap - t * ab;
+  const float length_squared = dot(ab, ab), inverse = length_squared > 0 ? 1.0F / length_squared : 0.0F;
+  const Vec3f d = ap - smaller(larger(dot(ap, ab) * inverse, 0.0F), 1.0F) * ab;
   return dot(d, d);
 }
 
@@ -65,11 +64,11 @@ ESPDIFF_INLINE float squared_distance_to_triangle(Vec3f p, const PlacedTriangle&
   const Vec3f n = cross(t.b - t.a, t.c - t.a);
   const float nn = dot(n, n);
   const Vec3f pa = p - t.a, pb = p - t.b, pc = p - t.c;
-  const bool over_face = nn > 0 && dot(cross(t.b - t.a, pa), n) >= 0 && dot(cross(t.c - t.b, pb), n) >= 0 &&
-                         dot(cross(t.a - t.c, pc), n) >= 0;
+  const bool over_face = nn > 0 && dot(pa, cross(n, t.b - t.a)) >= 0 && dot(pb, cross(n, t.c - t.b)) >= 0 &&
+                         dot(pc, cross(n, t.a - t.c)) >= 0;
   if (over_face) {
     const float height = dot(pa, n);
-    return height * height / nn;
+    return height * height * (1.0F / nn);
   }
   return smaller(squared_distance_to_segment(p, t.a, t.b),
                  smaller(squared_distance_to_segment(p, t.b, t.c), squared_distance_to_segment(p, t.c, t.a)));
