@@ -16,8 +16,6 @@ namespace {
 /// Cells per reach: small cells let a query skip most atoms out of reach.
 constexpr float kCellsPerReach = 3.0F;
 constexpr double kMaxCells = 6.4e7;
-/// Room after the last atom, for the CPU's loads of whole vectors.
-constexpr std::size_t kAtomsBeyond = 16;
 
 /// An atom as it is sent to the device.
 struct SentAtom {

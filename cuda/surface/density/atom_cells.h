@@ -30,9 +30,12 @@ struct AtomCellsView {
   }
 };
 
+/// Room after the last atom, for the CPU's loads of whole vectors.
+constexpr std::size_t kAtomsBeyond = 16;
+
 /// Atoms in a cell list.
 struct AtomCells : DeviceAtoms {
-  Buffer<float> x, y, z, exponent, reach;  ///< with room after the last atom, for loads of whole vectors
+  Buffer<float> x, y, z, exponent, reach;  ///< with room after the last atom
   Buffer<std::int32_t> residue;
   Buffer<std::uint32_t> first;
   std::array<int, 3> size{};
