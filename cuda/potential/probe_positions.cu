@@ -1,7 +1,9 @@
 // probe_positions.cu: neighbours whose spheres intersect, the exposed arcs of their circles, points on the arcs.
 #include "cuda/potential/probe_positions.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -54,11 +56,18 @@ void sort_nearest_first(const AtomCellsView& cells, std::uint32_t n_atoms, const
 
 #else
 
-/// Puts atom b at the place `at` of a's list, or before those that are farther away.
-ESPDIFF_INLINE void insert_nearest_first(const AtomCellsView& cells, std::uint32_t a, std::uint32_t b, float square,
-                                         std::uint32_t* list, std::uint32_t at) {
-  for (; at > 0 && squared_distance(cells, a, list[at - 1]) > square; --at) list[at] = list[at - 1];
-  list[at] = b;
+/// The same on the CPU, by a thread for each atom.
+void sort_nearest_first(const AtomCellsView& cells, std::uint32_t n_atoms, const std::uint32_t* first,
+                        Buffer<std::uint32_t>& list) {
+  std::uint32_t* const item = raw(list);
+  for_each_index(n_atoms, [=](std::size_t a) {
+    std::vector<std::pair<float, std::uint32_t> > by_distance;  // the atoms of a list ascend
+    by_distance.reserve(first[a + 1] - first[a]);
+    for (std::uint32_t n = first[a]; n < first[a + 1]; ++n)
+      by_distance.emplace_back(squared_distance(cells, static_cast<std::uint32_t>(a), item[n]), item[n]);
+    std::sort(by_distance.begin(), by_distance.end());
+    for (std::uint32_t n = first[a]; n < first[a + 1]; ++n) item[n] = by_distance[n - first[a]].second;
+  });
 }
 
 #endif
@@ -78,13 +87,7 @@ void find_neighbours(ProbeAtoms& atoms, float max_radius) {
         if (b == a) continue;
         const float square = squared_distance(cells, a, b), reach = radius[a] + radius[b];
         if (square >= reach * reach) continue;
-        if (out != nullptr) {
-#if defined(ESPDIFF_BACKEND_CUDA)
-          out[found] = b;
-#else
-          insert_nearest_first(cells, a, b, square, out, found);
-#endif
-        }
+        if (out != nullptr) out[found] = b;
         ++found;
       }
     });
@@ -97,9 +100,7 @@ void find_neighbours(ProbeAtoms& atoms, float max_radius) {
   std::uint32_t* const neighbour = raw(atoms.neighbour);
   for_each_index(
       n, [=] ESPDIFF_HD(std::size_t a) { visit_neighbours(static_cast<std::uint32_t>(a), neighbour + first[a]); });
-#if defined(ESPDIFF_BACKEND_CUDA)
   sort_nearest_first(cells, static_cast<std::uint32_t>(n), first, atoms.neighbour);
-#endif
 }
 
 /// The circle in which the spheres of two atoms intersect.

@@ -38,12 +38,20 @@ struct ProbeAtomsView {
   const std::uint8_t* exposed;
 
   ESPDIFF_INLINE Vec3f centre(std::uint32_t a) const { return {cells.x[a], cells.y[a], cells.z[a]}; }
+  ESPDIFF_INLINE bool covers(std::uint32_t b, Vec3f p) const {
+    const float dx = p.x - cells.x[b], dy = p.y - cells.y[b], dz = p.z - cells.z[b];
+    return dx * dx + dy * dy + dz * dz < radius[b] * radius[b] * kNotQuite;
+  }
   /// Whether p, on the sphere of atom a, lies inside another sphere.
-  ESPDIFF_INLINE bool is_buried(std::uint32_t a, Vec3f p) const {
+  /// @param likely the entry of `neighbour` that is looked at first; becomes the one that covers p, which often covers
+  /// the next point too
+  ESPDIFF_INLINE bool is_buried(std::uint32_t a, Vec3f p, std::uint32_t& likely) const {
+    if (first[a] == first[a + 1]) return false;
+    if (covers(neighbour[likely], p)) return true;
     for (std::uint32_t n = first[a]; n < first[a + 1]; ++n) {
-      const std::uint32_t b = neighbour[n];
-      const float dx = p.x - cells.x[b], dy = p.y - cells.y[b], dz = p.z - cells.z[b];
-      if (dx * dx + dy * dy + dz * dz < radius[b] * radius[b] * kNotQuite) return true;
+      if (!covers(neighbour[n], p)) continue;
+      likely = n;
+      return true;
     }
     return false;
   }

@@ -342,7 +342,8 @@ Buffer<float> lattice_values(const MapGrid& map) {
 }
 
 std::vector<float> point_values(const MapGrid& map) {
-  if (map.charge_sums == nullptr && map.zero == 0) return to_host(lattice_values(map));
+  if (map.charge_sums == nullptr && map.zero == 0)
+    return to_host(map.spline_order == 0 ? map.values : lattice_values(map));
   const MapView view = view_of(map);
   return to_host(at_own_points(map, [=] ESPDIFF_HD(const double(&c)[3]) { return potential_at(view, c); }));
 }

@@ -15,6 +15,9 @@ struct ShapeView {
   float reach;   ///< probe radius and a lattice step: farther probes do not matter next to the surface
   float margin;  ///< distance beyond the enlarged spheres within which depths are computed
   bool has_probe, has_arcs;
+
+  /// Otherwise it matters of points whether they are in an enlarged sphere, but not how deep.
+  ESPDIFF_INLINE bool needs_depth_outside() const { return !has_probe || margin > 0.0F; }
 };
 
 ESPDIFF_INLINE float square_of(float dx, float dy, float dz) { return dx * dx + dy * dy + dz * dz; }
@@ -23,10 +26,11 @@ ESPDIFF_INLINE float square_of(float dx, float dy, float dz) { return dx * dx + 
 constexpr float kDeepest_A = 1000;
 
 /// Whether the probe fits at the projection of p, at distance d from atom a, onto the enlarged sphere.
-ESPDIFF_INLINE bool is_reached_on(const ShapeView& shape, std::uint32_t a, Vec3f p, float d) {
+/// @param likely see ProbeAtomsView::is_buried()
+ESPDIFF_INLINE bool is_reached_on(const ShapeView& shape, std::uint32_t a, Vec3f p, float d, std::uint32_t& likely) {
   const Vec3f centre = shape.atoms.centre(a);
   const float scale = shape.atoms.radius[a] / d;
-  return !shape.atoms.is_buried(a, centre + scale * (p - centre));
+  return !shape.atoms.is_buried(a, centre + scale * (p - centre), likely);
 }
 
 ESPDIFF_INLINE float depth_at(const ShapeView& shape, Vec3f p) {
@@ -34,8 +38,11 @@ ESPDIFF_INLINE float depth_at(const ShapeView& shape, Vec3f p) {
   float inside = -kDeepest_A;
   visit_atom_runs(cells, p, cells.max_reach + shape.margin, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t a = begin; a < end; ++a) {
-      const float d = sqrtf(square_of(p.x - cells.x[a], p.y - cells.y[a], p.z - cells.z[a]));
-      inside = larger(inside, shape.atoms.radius[a] - d);
+      const float square = square_of(p.x - cells.x[a], p.y - cells.y[a], p.z - cells.z[a]),
+                  radius = shape.atoms.radius[a];
+      inside = shape.needs_depth_outside() ? larger(inside, radius - sqrtf(square))
+               : square < radius * radius  ? 1.0F
+                                           : inside;
     }
   });
   // Beyond the margin the value does not matter.
@@ -47,7 +54,8 @@ ESPDIFF_INLINE float depth_at(const ShapeView& shape, Vec3f p) {
       const float d = sqrtf(square_of(p.x - cells.x[a], p.y - cells.y[a], p.z - cells.z[a]));
       const float by_atom = shape.atoms.radius[a] - d;
       if (!(by_atom > 0.0F && by_atom < shape.reach)) continue;
-      if (by_atom - shape.probe < depth && is_reached_on(shape, a, p, d)) depth = by_atom - shape.probe;
+      std::uint32_t likely = shape.atoms.first[a];
+      if (by_atom - shape.probe < depth && is_reached_on(shape, a, p, d, likely)) depth = by_atom - shape.probe;
     }
   });
   if (!shape.has_arcs) return depth;
@@ -107,20 +115,28 @@ struct PlaneFill {
   float* depths;
 };
 
-/// Depth of points in the enlarged spheres.
+/// Depth of points in the enlarged spheres, or the greatest depth if it does not matter.
 ESPDIFF_INLINE void mark_spheres(const PlaneFill& in, int k) {
   const CubicLattice lattice = in.lattice;  // a copy, which the rows' values cannot change
   const AtomCellsView& cells = in.shape.atoms.cells;
   const float z = in.lattice.coordinate(2, k);
+  const bool needs_depth = in.shape.needs_depth_outside();
   for (std::uint32_t a = 0; a < in.n_atoms; ++a) {
     const float radius = in.shape.atoms.radius[a], reach = radius + in.shape.margin, x = cells.x[a];
     if (fabsf(cells.z[a] - z) >= reach) continue;
     visit_disc(in.lattice, k, in.shape.atoms.centre(a), reach,
                [&](int j, int i0, int i1, float dy, float dz) ESPDIFF_INLINE_LAMBDA {
                  float* const row = in.depths + in.lattice.index(0, j, k);
-                 for_lanes(i0, i1, lattice.size[0], [=](int i) ESPDIFF_INLINE_LAMBDA {
-                   row[i] = larger(row[i], radius - sqrtf(square_of(lattice.coordinate(0, i) - x, dy, dz)));
-                 });
+                 if (needs_depth) {
+                   for_lanes(i0, i1, lattice.size[0], [=](int i) ESPDIFF_INLINE_LAMBDA {
+                     row[i] = larger(row[i], radius - sqrtf(square_of(lattice.coordinate(0, i) - x, dy, dz)));
+                   });
+                 } else {
+                   for_lanes(i0, i1, lattice.size[0], [=](int i) ESPDIFF_INLINE_LAMBDA {
+                     const float before = row[i];
+                     row[i] = square_of(lattice.coordinate(0, i) - x, dy, dz) < radius * radius ? kDeepest_A : before;
+                   });
+                 }
                });
   }
 }
@@ -132,33 +148,42 @@ ESPDIFF_INLINE void reach_faces(const PlaneFill& in, int k) {
   for (std::uint32_t a = 0; a < in.n_atoms; ++a) {
     const float radius = in.shape.atoms.radius[a], x = cells.x[a];
     if (in.shape.atoms.exposed[a] == 0 || fabsf(cells.z[a] - z) >= radius) continue;
+    std::uint32_t likely = in.shape.atoms.first[a];
     visit_disc(in.lattice, k, in.shape.atoms.centre(a), radius, [&](int j, int i0, int i1, float dy, float dz) {
       float* const row = in.depths + in.lattice.index(0, j, k);
       for (int i = i0; i < i1; ++i) {
         const Vec3f p = in.lattice.point(i, j, k);
         const float d = sqrtf(square_of(p.x - x, dy, dz)), by_atom = radius - d;
         if (!(by_atom > 0.0F && by_atom < in.shape.reach)) continue;
-        if (by_atom - probe < row[i] && is_reached_on(in.shape, a, p, d)) row[i] = by_atom - probe;
+        if (by_atom - probe < row[i] && is_reached_on(in.shape, a, p, d, likely)) row[i] = by_atom - probe;
       }
     });
   }
 }
 
-/// Points that a probe covers while it touches two or more.
+/// Points that a probe covers while it touches two or more: squared distances from the nearest one first.
 ESPDIFF_INLINE void reach_arcs(const PlaneFill& in, int k) {
   const float probe = in.shape.probe, reach = in.shape.reach;
   const CubicLattice lattice = in.lattice;
+  const std::size_t plane = lattice.index(0, 0, 1);
+  Buffer<float> of_plane(plane);
+  float* const squares = raw(of_plane);
+  for (std::size_t i = 0; i < plane; ++i) squares[i] = INFINITY;
   for (std::uint32_t n = in.first_probe[k]; n < in.first_probe[k + 1]; ++n) {
     const std::uint32_t c = in.probes[n];
     const Vec3f centre{in.shape.probes.x[c], in.shape.probes.y[c], in.shape.probes.z[c]};
     visit_disc(in.lattice, k, centre, reach, [&](int j, int i0, int i1, float dy, float dz) ESPDIFF_INLINE_LAMBDA {
-      float* const row = in.depths + in.lattice.index(0, j, k);
+      float* const row = squares + lattice.index(0, j, 0);
       for_lanes(i0, i1, lattice.size[0], [=](int i) ESPDIFF_INLINE_LAMBDA {
-        const float d = sqrtf(square_of(lattice.coordinate(0, i) - centre.x, dy, dz)), before = row[i];
-        const bool covers = (d < reach) & (before > -probe);
-        row[i] = covers ? smaller(before, d - probe) : before;
+        row[i] = smaller(square_of(lattice.coordinate(0, i) - centre.x, dy, dz), row[i]);
       });
     });
+  }
+  float* const depths = in.depths + plane * static_cast<std::size_t>(k);
+  for (std::size_t i = 0; i < plane; ++i) {
+    const float d = sqrtf(squares[i]), before = depths[i];
+    const bool covers = (d < reach) & (before > -probe);
+    depths[i] = covers ? smaller(before, d - probe) : before;
   }
 }
 
@@ -167,13 +192,15 @@ ESPDIFF_MULTIVERSION void fill_plane(const PlaneFill& in, int k) {
   float* const depths = in.depths + plane * static_cast<std::size_t>(k);
   for (std::size_t i = 0; i < plane; ++i) depths[i] = -kDeepest_A;
   mark_spheres(in, k);
-  const bool has_probe = in.shape.has_probe;
-  const float margin = -in.shape.margin, probe = in.shape.probe;
-  for (std::size_t i = 0; i < plane; ++i) {
-    const float outside = depths[i] < margin ? -kDeepest_A : depths[i] - probe;
-    depths[i] = depths[i] > 0.0F && has_probe ? kDeepest_A : outside;
+  if (in.shape.needs_depth_outside()) {
+    const bool has_probe = in.shape.has_probe;
+    const float margin = -in.shape.margin, probe = in.shape.probe;
+    for (std::size_t i = 0; i < plane; ++i) {
+      const float outside = depths[i] < margin ? -kDeepest_A : depths[i] - probe;
+      depths[i] = depths[i] > 0.0F && has_probe ? kDeepest_A : outside;
+    }
+    if (!has_probe) return;
   }
-  if (!has_probe) return;
   reach_faces(in, k);
   reach_arcs(in, k);
 }

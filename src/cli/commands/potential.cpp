@@ -76,11 +76,9 @@ class Outputs {
     for (const std::string& path : paths) open(path);
   }
 
-  void write_frame(std::size_t number, const Grid& map) {
-    if (each_) write_map(*files_[number], map);
-  }
-  void finish(const PotentialArguments& a, const RunningMap& average) {
-    if (!each_) write_map(*files_[0], average.mean());
+  void write_frame(std::size_t number, const Grid& map) { write_map(*files_[number], map); }
+  void finish(const PotentialArguments& a, const Grid& mean, const RunningMap& average) {
+    if (!each_) write_map(*files_[0], mean);
     std::size_t next = n_maps_;
     if (!a.variance.empty()) write_map(*files_[next++], average.variance());
     if (!a.standard_error.empty()) write_map(*files_[next++], average.standard_error());
@@ -176,16 +174,20 @@ int potential_verb(PotentialArguments& a, const Context& context) {
     require_charges(molecule);
     // A crystal's cell is no cell of a molecule without its water.
     const auto cell = states.preparation() ? std::nullopt : file.unit_cell(frames[i] + 1);
-    outputs.write_frame(i, series.step(molecule, cell, *context.progress));
+    if (a.map.each) {
+      outputs.write_frame(i, series.step(molecule, cell, *context.progress));
+    } else {
+      series.add(molecule, cell, *context.progress);
+    }
     context.progress->report("frames", static_cast<double>(i + 1) / static_cast<double>(frames.size()));
   }
   context.progress->report("write", 1.0);
-  outputs.finish(a, series.average());
+  const Grid mean = series.average().mean();
+  outputs.finish(a, mean, series.average());
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (a.quiet) return 0;
   if (states.preparation()) print_preparation(std::cout, *states.preparation());
-  print_summary(states.first(), series.average().mean(), frames.size(),
-                a.map.method == PotentialMethod::kPoissonBoltzmann, ms);
+  print_summary(states.first(), mean, frames.size(), a.map.method == PotentialMethod::kPoissonBoltzmann, ms);
   std::cout << "written        " << (a.map.each ? numbered(a.output, frames.front()) + " and so on" : a.output) << '\n';
   return 0;
 }
