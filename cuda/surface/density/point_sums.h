@@ -22,7 +22,7 @@ struct PointList {
 enum class Taken { kGaussian, kRoot };
 
 template <Taken What>
-constexpr float share_of = What == Taken::kRoot ? 0.5F : 1.0F;
+constexpr float kShareOf = What == Taken::kRoot ? 0.5F : 1.0F;
 
 /// Calls add(atom, exponent, dx, dy, dz, square, taken) with floats for each atom that reaches p, in the order of the
 /// cell list. (dx, dy, dz) points from the atom to the point; `square` is its squared length.
@@ -33,7 +33,7 @@ ESPDIFF_INLINE void sum_at_point(const AtomCellsView& cells, Vec3f p, Add add) {
       const float dx = p.x - cells.x[a], dy = p.y - cells.y[a], dz = p.z - cells.z[a];
       const float k = cells.exponent[a];
       const float square = dx * dx + dy * dy + dz * dz;
-      if (k * square > kCutoffExponent) add(a, k, dx, dy, dz, square, exp_of_negative(share_of<What> * (k * square)));
+      if (k * square > kCutoffExponent) add(a, k, dx, dy, dz, square, exp_of_negative(kShareOf<What> * (k * square)));
     }
   });
 }
@@ -237,7 +237,7 @@ ESPDIFF_INLINE void sum_at_block(const AtomCellsView& cells, const SharedAtoms& 
       const Numbers argument = k * square;
       const Mask counts = argument > kCutoffExponent;
       Numbers exponential;
-      exp_of_negative_lanes<Numbers>(share_of<What> * (Numbers)((Mask)argument & counts), exponential);
+      exp_of_negative_lanes<Numbers>(kShareOf<What> * (Numbers)((Mask)argument & counts), exponential);
       add(a, k, dx, dy, dz, square, (Numbers)((Mask)exponential & counts));
     }
     at += N;
