@@ -2,6 +2,7 @@
 #include "prepare/load_state.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "align/pair_residues.h"
@@ -96,6 +97,36 @@ std::vector<std::string> forced_states(const Molecule& source, const Molecule& r
   return states;
 }
 
+/// A PSF or prmtop that lies beside a file, has its name and lists as many atoms; empty for none.
+std::string topology_beside(const StructureFile& file, const StructureOptions& structure) {
+  namespace fs = std::filesystem;
+  if (!structure.assembly.empty()) return {};
+  for (const char* const ending : {".psf", ".prmtop", ".parm7"}) {
+    const std::string path = fs::path(file.path()).replace_extension(ending).string();
+    std::error_code missing;
+    if (path == file.path() || !fs::is_regular_file(path, missing)) continue;
+    try {
+      if (read_topology(path).names.size() == file.read({structure.model, true, true, {}}).size()) return path;
+    } catch (const Error&) {
+      // Whoever means it gives it, and learns what is wrong with it.
+    }
+  }
+  return {};
+}
+
+std::string topology_option(StateRole role) {
+  return role == StateRole::kOnly ? "topology" : std::string(to_string(role)) + "-topology";
+}
+
+/// The error of a state whose atoms a topology beside it lists.
+[[noreturn]] void advise_topology(const UnchargedError& error, const std::string& name, const std::string& topology,
+                                  StateRole role) {
+  const std::string named = topology_option(role);
+  throw InputError(name + ": " + error.text +
+                   Message("; " + topology + " beside it has charges of its atoms: " + option(named, topology))
+                       .set_next({"", {{named, topology}}}));
+}
+
 /// The error of a state with the line of its first residue, and with the residues of the other state.
 [[noreturn]] void refuse_uncharged(const UnchargedError& error, const std::string& name, long line,
                                    const StateRequest& request, const std::string& force_field) {
@@ -187,7 +218,10 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
   state.is_changed = !structure.assembly.empty();
   try {
     select_and_charge(state, request, options, progress);
+    if (state.preparation) state.preparation->topology_beside = topology_beside(file, structure);
   } catch (const UnchargedError& error) {
+    const std::string beside = topology_beside(file, structure);
+    if (!beside.empty() && !request.only_checks) advise_topology(error, state.molecule.name, beside, request.role);
     refuse_uncharged(error, state.molecule.name, file.line_of(structure.model, error.residue), request,
                      force_field_for(state.molecule, nullptr, options.charges.force_field));
   }

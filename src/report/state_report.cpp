@@ -39,6 +39,9 @@ void note_state(CompareResult& result, const std::string& role, const StateOrigi
   if (p.groups.size() > kMostGroups)
     result.inputs.lines.emplace_back("", "and " + std::to_string(p.groups.size() - kMostGroups) + " more");
   for (const std::string& warning : p.warnings) result.inputs.warnings.push_back({"of the " + role + ", " + warning});
+  if (!p.topology_beside.empty())
+    result.inputs.warnings.push_back({"charges of the " + role + ": " + option(role + "-topology", p.topology_beside) +
+                                      " takes those of the file beside it instead of PDB2PQR's"});
   if (!p.gaps.empty())
     result.inputs.warnings.push_back({"the " + role + " lacks residues " + joined(p.gaps, 4) +
                                       "; they are not modelled, and chain ends there stay uncharged"});

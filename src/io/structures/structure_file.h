@@ -42,6 +42,7 @@ class StructureFile {
   StructureFile(const StructureFile&) = delete;
   StructureFile& operator=(const StructureFile&) = delete;
 
+  const std::string& path() const { return path_; }
   /// Of the file as it was read. A trajectory's is computed when it is asked for.
   const std::string& sha256() const;
   /// For a file that is read again, such as frames too large to be kept: results tell of one content only.

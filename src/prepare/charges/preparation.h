@@ -52,6 +52,7 @@ struct Preparation {
   std::vector<std::string> groups;       ///< charges of what PDB2PQR has none for: "ZN 301 of chain A: +2 e (...)"
   std::vector<std::string> warnings;     ///< what is doubtful about these
   std::vector<std::string> notes;        ///< what was chosen, and why: "force field AMBER, since ..."
+  std::string topology_beside;           ///< a PSF or prmtop of the file's atoms, whose charges were not taken
   std::vector<std::string> gaps;         ///< "between GLY 10 and ALA 15 of chain A"
 };
 

@@ -40,6 +40,7 @@ nlohmann::ordered_json preparation_json(const Preparation& p) {
   json["groups"] = p.groups;
   json["warnings"] = p.warnings;
   json["notes"] = p.notes;
+  if (!p.topology_beside.empty()) json["topology_beside"] = p.topology_beside;
   json["gaps"] = p.gaps;
   json["from_cache"] = p.from_cache;
   json["seconds"] = p.seconds;
@@ -60,6 +61,8 @@ void print_preparation(std::ostream& out, const Preparation& p) {
   list(out, "beside chains", p.groups);
   list(out, "warning", p.warnings);
   list(out, "note", p.notes);
+  if (!p.topology_beside.empty())
+    labelled_line(out, "not taken", "the charges of " + p.topology_beside + ", which lists the file's atoms");
   list(out, "missing", p.gaps);
   labelled_line(out, "net charge", formatted("%.4f", p.net_charge) + " e");
 }

@@ -188,3 +188,17 @@ TEST_CASE("surface takes selections; what potential and surface cannot do is one
   refused("potential " + *entry + " --leave-out '(HEM)' --ligands files -o " + folder.file("p.dx"), 2,
           has_pdb2pqr() ? "get no charges" : "");
 }
+
+TEST_CASE("compare: a PSF beside a structure that PDB2PQR charged is named with the option that takes it") {
+  const auto pdb = real_input("ubq/ubq.pdb"), psf = real_input("ubq/ubq.psf"), pqr = real_input("ubq/ubq.pqr");
+  if (!pdb || !psf || !pqr || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  const std::string a = folder.write("a.pdb", read_file(*pdb)), topology = folder.write("a.psf", read_file(*psf));
+  const std::string hint = "source-topology " + topology + " takes those of the file beside it";
+  const std::string unasked = run("compare " + a + " " + *pqr, folder.file("unasked"))["warnings"].dump();
+  CHECK_MESSAGE(contains(unasked, hint), unasked);
+  CHECK_FALSE(contains(unasked, "target-topology"));
+  const std::string taken =
+      run("compare " + a + " " + *pqr + " --source-topology " + topology, folder.file("taken"))["warnings"].dump();
+  CHECK_FALSE(contains(taken, "-topology"));
+}

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "cli/run_espdiff.h"
 #include "cli/words/next_command.h"
@@ -35,6 +36,25 @@ std::string row_of_chain(char chain, double y) {
   return out;
 }
 
+/// Carbons of a residue that nobody knows, in a row, as PDB and as PSF.
+std::string unknown_residue(int n, double y) {
+  std::string text;
+  for (int i = 0; i < n; ++i) {
+    char line[160];
+    std::snprintf(line, sizeof line, "ATOM  %5d  C%-2d QQQ A   1    %8.3f%8.3f%8.3f  1.00  0.00           C\n", i + 1,
+                  i + 1, 1.5 * i, y + 0.7 * (i % 3), 0.4 * (i % 2));
+    text += line;
+  }
+  return text;
+}
+std::string psf_of_unknown(int n, double charge) {
+  std::string text = "PSF\n\n " + std::to_string(n) + " !NATOM\n";
+  for (int i = 0; i < n; ++i)
+    text += std::to_string(i + 1) + " A 1 QQQ C" + std::to_string(i + 1) + " C " +
+            std::to_string(i % 2 == 0 ? charge : -charge) + " 12.011 0\n";
+  return text;
+}
+
 constexpr const char* kCoarse = " --potential none --grid-spacing 1 --device cpu";
 
 }  // namespace
@@ -52,6 +72,30 @@ TEST_CASE("next: a result that exists is replaced by the command that the refusa
                  "pair exists; --overwrite replaces it, another --output keeps it\nnext: espdiff compare '"));
   const Outcome again = run_espdiff(next_words(refused.err));
   CHECK_MESSAGE(again.status == 0, again.err);
+}
+
+TEST_CASE("next: charges of PSF files beside structures that nothing else can charge") {
+  const ScratchFolder folder;
+  const std::string a = folder.write("a.pdb", unknown_residue(12, 0)),
+                    b = folder.write("b.pdb", unknown_residue(12, 0.4));
+  const std::string first = folder.write("a.psf", psf_of_unknown(12, 0.5)),
+                    second = folder.write("b.psf", psf_of_unknown(12, 0.4));
+  std::string words = "compare " + a + " " + b + " --grid-spacing 1 --pb-spacing 1 --device cpu -q";
+  for (const auto& [role, topology] : {std::pair("source", first), std::pair("target", second)}) {
+    const Outcome refused = run_espdiff(words);
+    CHECK(refused.status == 2);
+    const std::string option = std::string("--") + role + "-topology " + topology;
+    CHECK_MESSAGE(contains(refused.err, topology + " beside it has charges of its atoms: " + option), refused.err);
+    words = next_words(refused.err);
+    CHECK_MESSAGE(contains(words, option), words);
+  }
+  const Outcome compared = run_espdiff(words + " -o " + folder.file("pair"));
+  CHECK_MESSAGE((compared.status == 0 || compared.status == 3), compared.err);
+  // Another number of atoms is another molecule's.
+  folder.write("a.psf", psf_of_unknown(11, 0.5));
+  const Outcome without = run_espdiff("compare " + a + " " + b);
+  CHECK(without.status == 2);
+  CHECK_FALSE(contains(without.err, "beside it"));
 }
 
 TEST_CASE("without -o, a second run gets a name of its own") {
