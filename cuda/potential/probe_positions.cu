@@ -61,12 +61,11 @@ void sort_nearest_first(const AtomCellsView& cells, std::uint32_t n_atoms, const
                         Buffer<std::uint32_t>& list) {
   std::uint32_t* const item = raw(list);
   for_each_index(n_atoms, [=](std::size_t a) {
-    std::vector<std::pair<float, std::uint32_t> > by_distance;  // the atoms of a list ascend
-    by_distance.reserve(first[a + 1] - first[a]);
-    for (std::uint32_t n = first[a]; n < first[a + 1]; ++n)
-      by_distance.emplace_back(squared_distance(cells, static_cast<std::uint32_t>(a), item[n]), item[n]);
-    std::sort(by_distance.begin(), by_distance.end());
-    for (std::uint32_t n = first[a]; n < first[a + 1]; ++n) item[n] = by_distance[n - first[a]].second;
+    const auto with_distance = [&](std::uint32_t b) {
+      return std::pair(squared_distance(cells, static_cast<std::uint32_t>(a), b), b);
+    };
+    std::sort(item + first[a], item + first[a + 1],
+              [&](std::uint32_t b, std::uint32_t c) { return with_distance(b) < with_distance(c); });
   });
 }
 

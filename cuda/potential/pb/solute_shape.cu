@@ -4,6 +4,10 @@
 
 #include "cuda/potential/pb/dielectric_map.h"
 
+#if !defined(ESPDIFF_BACKEND_CUDA)
+#include <omp.h>
+#endif
+
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
@@ -113,6 +117,7 @@ struct PlaneFill {
   const std::uint32_t* first_probe;  ///< [plane + 1] of `probes` that reach it
   const std::uint32_t* probes;
   float* depths;
+  float* squares;  ///< [point of a plane] for each thread: of distances from the nearest probe
 };
 
 /// Depth of points in the enlarged spheres, or the greatest depth if it does not matter.
@@ -166,8 +171,7 @@ ESPDIFF_INLINE void reach_arcs(const PlaneFill& in, int k) {
   const float probe = in.shape.probe, reach = in.shape.reach;
   const CubicLattice lattice = in.lattice;
   const std::size_t plane = lattice.index(0, 0, 1);
-  Buffer<float> of_plane(plane);
-  float* const squares = raw(of_plane);
+  float* const squares = in.squares + plane * static_cast<std::size_t>(omp_get_thread_num());
   for (std::size_t i = 0; i < plane; ++i) squares[i] = INFINITY;
   for (std::uint32_t n = in.first_probe[k]; n < in.first_probe[k + 1]; ++n) {
     const std::uint32_t c = in.probes[n];
@@ -252,8 +256,14 @@ void SoluteShape::depths_by_points(const CubicLattice& lattice, Buffer<float>& d
 #if !defined(ESPDIFF_BACKEND_CUDA)
 void SoluteShape::depths_by_planes(const CubicLattice& lattice, Buffer<float>& depths) const {
   depths.resize(lattice.n_points());
-  PlaneFill fill{
-      view_of(atoms_, probes_, probe_, lattice.spacing), lattice, atoms_.radius.size(), nullptr, nullptr, raw(depths)};
+  Buffer<float> squares(lattice.index(0, 0, 1) * static_cast<std::size_t>(omp_get_max_threads()));
+  PlaneFill fill{view_of(atoms_, probes_, probe_, lattice.spacing),
+                 lattice,
+                 atoms_.radius.size(),
+                 nullptr,
+                 nullptr,
+                 raw(depths),
+                 raw(squares)};
   // Probes sorted by plane.
   std::vector<std::uint32_t> first(static_cast<std::size_t>(lattice.size[2]) + 1, 0), probes;
   const std::size_t n_probes = probes_ ? probes_->n_atoms() : 0;
