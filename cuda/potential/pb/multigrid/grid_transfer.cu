@@ -103,12 +103,11 @@ void coarsen_packed_k(const GridOperator& fine, GridOperator& coarse) {
     std::fill_n(out + c.index(0, 0, k), c.plane(), 0.0F);
     if (k == 0 || 2 * k >= f.nz - 1) return;
     for (int j = 1; 2 * j < f.ny - 1; ++j) {
-      const CodeRun* run = packed.runs + packed.first_run[f.index(0, 2 * j, 2 * k) / f.row()];
-      int end = run->n_points;
+      const std::size_t row = f.index(0, 2 * j, 2 * k) / f.row();
       for (int i = 1; 2 * i < f.nx - 1; ++i) {
-        while (2 * i >= end) end += (++run)->n_points;
         const float faces = faces_at(f.index(2 * i, 2 * j, 2 * k));
-        const float own = (run->code & PackedView::kIonsBit) != 0 ? packed.usual.ions : 0.0F;
+        const bool has_ions = (packed.code_of(row, static_cast<std::uint32_t>(2 * i)) & MixedPoints::kIonsBit) != 0;
+        const float own = has_ions ? packed.usual.ions : 0.0F;
         out[c.index(i, j, k)] = coarse_k(own + faces, faces);
       }
     }

@@ -2,15 +2,16 @@
 #include "cuda/potential/pb/multigrid/operator_rows.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
 /// The usual dielectrics of a row's faces.
-ESPDIFF_MULTIVERSION void usual_faces(const std::uint8_t* codes, float solvent, float solute, std::size_t n, float* ex,
+ESPDIFF_MULTIVERSION void usual_faces(const std::uint8_t* codes, float solvent, float solute, int n, float* ex,
                                       float* ey, float* ez) {
 #pragma GCC ivdep
-  for (std::size_t i = 0; i < n; ++i) {
+  for (int i = 0; i < n; ++i) {
     const int code = codes[i];
     ex[i] = (code & 1) != 0 ? solute : solvent;
     ey[i] = (code & 2) != 0 ? solute : solvent;
@@ -18,29 +19,29 @@ ESPDIFF_MULTIVERSION void usual_faces(const std::uint8_t* codes, float solvent, 
   }
 }
 
-/// The diagonal of inner points: k and the six faces, in the order of add_faces_to_diagonal().
-ESPDIFF_MULTIVERSION void diagonal_of(const std::uint8_t* codes, float ions, const OperatorRow& row, std::size_t n,
-                                      float* out) {
+/// The diagonal of the points from `first` to before `last`: k and the six faces, in the order of add_faces_to_diagonal().
+ESPDIFF_MULTIVERSION void diagonal_of(const std::uint8_t* codes, float ions, const OperatorRow& row, float* out) {
+  const int first = row.first, last = row.last;
   const float* const ex = row.ex;
   const float* const ey = row.ey;
   const float* const ey_before = row.ey_before;
   const float* const ez = row.ez;
   const float* const ez_below = row.ez_below;
 #pragma GCC ivdep
-  for (std::size_t i = 1; i < n - 1; ++i) {
+  for (int i = first; i < last; ++i) {
     const float faces = (ex[i] + ex[i - 1]) + (ey[i] + ey_before[i]) + (ez[i] + ez_below[i]);
     const int code = codes[i];
-    out[i] = ((code & PackedView::kIonsBit) != 0 ? ions : 0.0F) + faces;
+    out[i] = ((code & MixedPoints::kIonsBit) != 0 ? ions : 0.0F) + faces;
   }
 }
 
 }  // namespace
 
-OperatorRows::OperatorRows(const GridOperator& of, Buffer<float>& storage, PlainRows plain, RowRange rows)
-    : of_(of), storage_(storage), rows_(rows), codes_(of.size.row()) {
-  if (of.packed != nullptr && plain == PlainRows::kLeftOut) {
+OperatorRows::OperatorRows(const GridOperator& of, Buffer<float>& storage, PlainEnds ends, RowRange rows)
+    : of_(of), storage_(storage), rows_(rows), codes_(of.size.row() + CodeWord::kPoints) {
+  if (of.packed != nullptr && ends == PlainEnds::kLeftOut) {
     const PackedView packed = of.packed->view();
-    plain_ = packed.plain;
+    mixed_ = packed.mixed;
     const float e = packed.usual.solvent, faces = (e + e) + (e + e) + (e + e);
     for (const int has_ions : {0, 1})
       plain_diagonal_[has_ions].assign(of.size.row(), (has_ions != 0 ? packed.usual.ions : 0.0F) + faces);
@@ -63,18 +64,29 @@ float* OperatorRows::unpacked(Array array, int k) {
   return raw(storage_) + of_.size.plane() * static_cast<std::size_t>(kArrays * (k % kPlanes) + array);
 }
 
+MixedPoints OperatorRows::mixed_of(std::size_t row) const {
+  if (mixed_ != nullptr) return mixed_[row];
+  return {1, static_cast<std::uint32_t>(of_.size.nx - 1), 0};
+}
+
 OperatorRow OperatorRows::at(int j, int k) const {
   const std::size_t row = of_.size.row(), first = row * static_cast<std::size_t>(j);
-  const std::uint8_t plain =
-      plain_of(static_cast<std::size_t>(j) + static_cast<std::size_t>(of_.size.ny) * static_cast<std::size_t>(k));
-  if (plain != kNotPlain) {
-    const float* const diagonal =
-        of_.diagonal.empty() ? plain_diagonal_[plain == kWithIons ? 1 : 0].data() : plane_of(kDiagonal, k) + first;
-    return {nullptr, nullptr, nullptr, nullptr, nullptr, diagonal, of_.packed->view().usual.solvent};
-  }
+  const MixedPoints mixed =
+      mixed_of(static_cast<std::size_t>(j) + static_cast<std::size_t>(of_.size.ny) * static_cast<std::size_t>(k));
   const float* const ey = plane_of(kY, k) + first;
-  return {plane_of(kX, k) + first,        ey,  ey - row, plane_of(kZ, k) + first, plane_of(kZ, k - 1) + first,
-          plane_of(kDiagonal, k) + first, 0.0F};
+  const float* const diagonal = plane_of(kDiagonal, k) + first;
+  const bool has_ends = mixed_ != nullptr;
+  return {plane_of(kX, k) + first,
+          ey,
+          ey - row,
+          plane_of(kZ, k) + first,
+          plane_of(kZ, k - 1) + first,
+          diagonal,
+          has_ends && of_.diagonal.empty() ? plain_diagonal_[mixed.has_ions()].data() : diagonal,
+          has_ends ? of_.packed->view().usual.solvent : 0.0F,
+          static_cast<int>(mixed.first),
+          static_cast<int>(mixed.last),
+          of_.size.nx - 1};
 }
 
 void OperatorRows::hold(int k) {
@@ -89,12 +101,33 @@ void OperatorRows::hold(int k) {
   first_ = std::max(first_, k + 1 - kPlanes);
 }
 
-const std::uint8_t* OperatorRows::codes_of(std::size_t row) {
+/// The codes of a row at `points`; others of the array are not renewed.
+const std::uint8_t* OperatorRows::codes_of(std::size_t row, RowRange points) {
   const PackedView packed = of_.packed->view();
-  std::uint8_t* next = codes_.data();
-  for (std::uint32_t r = packed.first_run[row]; r < packed.first_run[row + 1]; ++r)
-    next = std::fill_n(next, packed.runs[r].n_points, packed.runs[r].code);
-  return codes_.data();
+  const MixedPoints own = packed.own[row];
+  std::uint8_t* const codes = codes_.data();
+  if (points.first < static_cast<int>(own.first) || points.last > static_cast<int>(own.last))
+    std::fill(codes + points.first, codes + points.last, static_cast<std::uint8_t>(own.code_of_ends));
+  std::uint8_t* next = codes + own.first / CodeWord::kPoints * CodeWord::kPoints;
+  for (std::uint32_t w = packed.first_word[row]; w < packed.first_word[row + 1]; ++w) {
+    const std::uint64_t word = packed.words[w].codes, halves[2] = {word & CodeWord::kLow, word >> 4 & CodeWord::kLow};
+    std::memcpy(next, halves, sizeof halves);
+    next += sizeof halves;
+  }
+  return codes;
+}
+
+/// The points of a row whose faces are faces of mixed points: of the row itself, of the next one, or of that above.
+RowRange OperatorRows::needed_faces(std::size_t row) const {
+  const MixedPoints own = mixed_of(row), next = mixed_of(row + 1),
+                    above = mixed_of(row + static_cast<std::size_t>(of_.size.ny));
+  RowRange needed{of_.size.nx, 0};
+  for (const MixedPoints& mixed : {own, next, above}) {
+    if (mixed.first >= mixed.last) continue;
+    needed.first = std::min(needed.first, static_cast<int>(mixed.first) - 1);
+    needed.last = std::max(needed.last, static_cast<int>(mixed.last));
+  }
+  return needed;
 }
 
 void OperatorRows::unpack_faces(int k) {
@@ -103,14 +136,15 @@ void OperatorRows::unpack_faces(int k) {
   float* const faces[3] = {unpacked(kX, k), unpacked(kY, k), unpacked(kZ, k)};
   // The first row's points have faces of the row before.
   for (std::size_t j = static_cast<std::size_t>(rows_.first - 1); j < static_cast<std::size_t>(rows_.last); ++j) {
-    const std::size_t row = j + ny * static_cast<std::size_t>(k), first = n * j;
-    // Faces belong to the next rows' points as well.
-    if (plain_of(row) != kNotPlain && plain_of(row + 1) != kNotPlain && plain_of(row + ny) != kNotPlain) continue;
-    usual_faces(codes_of(row), packed.usual.solvent, packed.usual.solute, n, faces[0] + first, faces[1] + first,
-                faces[2] + first);
+    const std::size_t row = j + ny * static_cast<std::size_t>(k);
+    const RowRange needed = needed_faces(row);
+    if (needed.first >= needed.last) continue;
+    const std::size_t begin = static_cast<std::size_t>(needed.first), first = n * j + begin;
+    usual_faces(codes_of(row, needed) + begin, packed.usual.solvent, packed.usual.solute, needed.last - needed.first,
+                faces[0] + first, faces[1] + first, faces[2] + first);
     for (std::uint32_t listed = packed.first_face[row]; listed < packed.first_face[row + 1]; ++listed) {
       const ListedFace& face = packed.listed[listed];
-      faces[face.axis()][first + face.point()] = face.dielectric;
+      faces[face.axis()][n * j + face.point()] = face.dielectric;
     }
   }
 }
@@ -119,9 +153,10 @@ void OperatorRows::unpack_diagonal(int k) {
   const float ions = of_.packed->view().usual.ions;
   const std::size_t n = of_.size.row(), ny = static_cast<std::size_t>(of_.size.ny);
   for (std::size_t j = static_cast<std::size_t>(rows_.first); j < static_cast<std::size_t>(rows_.last); ++j) {
-    const std::size_t row = j + ny * static_cast<std::size_t>(k);
-    if (plain_of(row) == kNotPlain)
-      diagonal_of(codes_of(row), ions, at(static_cast<int>(j), k), n, unpacked(kDiagonal, k) + n * j);
+    const OperatorRow row = at(static_cast<int>(j), k);
+    if (row.first < row.last)
+      diagonal_of(codes_of(j + ny * static_cast<std::size_t>(k), {row.first, row.last}), ions, row,
+                  unpacked(kDiagonal, k) + n * j);
   }
 }
 

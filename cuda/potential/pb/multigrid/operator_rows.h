@@ -18,9 +18,11 @@ struct OperatorRow {
   const float* ey;
   const float* ey_before;  ///< of the row before, y - 1
   const float* ez;
-  const float* ez_below;  ///< of the row below, z - 1
-  const float* diagonal;  ///< of the inner points
-  float plain;            ///< the dielectric of all faces of a plain row, whose other arrays are null; otherwise 0
+  const float* ez_below;         ///< of the row below, z - 1
+  const float* diagonal;         ///< of the inner points
+  const float* plain_diagonal;   ///< of those at plain ends
+  float plain;                   ///< the dielectric of the faces there
+  int first, last, end;          ///< the inner points between the plain ends, and the row's last point
 };
 
 /// Rows [first, last) of a plane, all of them inner ones.
@@ -29,18 +31,18 @@ struct RowRange {
 };
 inline RowRange inner_rows(const GridSize& size) { return {1, size.ny - 1}; }
 
-/// Whether rows that are plain are unpacked as well.
-enum class PlainRows { kUnpacked, kLeftOut };
+/// Whether the plain ends of rows are unpacked as well.
+enum class PlainEnds { kUnpacked, kLeftOut };
 
 /// Gives the rows of one operator, plane after plane. Not for several threads at once: each has its own.
 class OperatorRows {
  public:
   /// @param of must outlive this object
   /// @param storage for unpacked planes; kept for the next one, so that each pass need not allocate
-  OperatorRows(const GridOperator& of, Buffer<float>& storage, PlainRows plain)
-      : OperatorRows(of, storage, plain, inner_rows(of.size)) {}
+  OperatorRows(const GridOperator& of, Buffer<float>& storage, PlainEnds ends)
+      : OperatorRows(of, storage, ends, inner_rows(of.size)) {}
   /// Of some of each plane's rows alone.
-  OperatorRows(const GridOperator& of, Buffer<float>& storage, PlainRows plain, RowRange rows);
+  OperatorRows(const GridOperator& of, Buffer<float>& storage, PlainEnds ends, RowRange rows);
   /// Makes the rows of an inner plane and of the three before it available.
   void hold(int k);
   /// One of the rows, of a plane that is held.
@@ -49,18 +51,18 @@ class OperatorRows {
  private:
   enum Array { kX, kY, kZ, kDiagonal, kArrays };
   static constexpr int kPlanes = 4;
-  /// One of PlainRow.
-  std::uint8_t plain_of(std::size_t row) const { return plain_ == nullptr ? std::uint8_t{kNotPlain} : plain_[row]; }
+  MixedPoints mixed_of(std::size_t row) const;
   const float* plane_of(Array array, int k) const;
   float* unpacked(Array array, int k);
-  const std::uint8_t* codes_of(std::size_t row);
+  const std::uint8_t* codes_of(std::size_t row, RowRange points);
+  RowRange needed_faces(std::size_t row) const;  // of points
   void unpack_faces(int k);
   void unpack_diagonal(int k);
 
   const GridOperator& of_;
   Buffer<float>& storage_;
   RowRange rows_;
-  const std::uint8_t* plain_ = nullptr;   ///< [row] that are left out; null for none
+  const MixedPoints* mixed_ = nullptr;    ///< [row] points to unpack; null for all
   std::vector<float> plain_diagonal_[2];  ///< [point] of a row without ions and with them
   std::vector<std::uint8_t> codes_;       ///< [point] of one row
   int first_ = 0, last_ = -1;             ///< planes whose faces are unpacked

@@ -17,37 +17,34 @@ struct CoefficientArrays {
   }
 };
 
-/// Calls run(code, number of points) for the runs of a row, and face(4 * point + axis, value) for its listed faces.
-template <typename Run, typename Face>
-ESPDIFF_INLINE void visit_row(const CoefficientArrays<const float>& in, std::size_t of_row, Run run, Face face) {
-  unsigned before = 0, n = 0;
+/// Calls point(place in the row, code) for the points of a row, and before it face(4 * point + axis, value) for the
+/// faces to be listed.
+template <typename Point, typename Face>
+ESPDIFF_INLINE void visit_row(const CoefficientArrays<const float>& in, std::size_t of_row, Point point, Face face) {
   for (std::size_t i = 0; i < in.row; ++i) {
     const std::size_t p = of_row * in.row + i;
-    unsigned code = in.k[p] != 0.0F ? PackedView::kIonsBit : 0;
+    unsigned code = in.k[p] != 0.0F ? MixedPoints::kIonsBit : 0;
     for (unsigned axis = 0; axis < 3; ++axis) {
       const float value = in.face(axis)[p];
       code |= (value == in.usual.solute ? 1U : 0U) << axis;
       if (value != in.usual_face(code, axis)) face(static_cast<std::uint32_t>(4 * i + axis), value);
     }
-    if (n > 0 && (code != before || n == CodeRun::kMostPoints)) {
-      run(before, n);
-      n = 0;
-    }
-    before = code;
-    ++n;
+    point(static_cast<std::uint32_t>(i), code);
   }
-  run(before, n);
+}
+
+/// Words of the codes of a row's own mixed points.
+ESPDIFF_INLINE std::uint32_t n_words(const MixedPoints& own) {
+  if (own.first >= own.last) return 0;
+  return (own.last - 1) / CodeWord::kPoints - own.first / CodeWord::kPoints + 1;
 }
 
 ESPDIFF_INLINE void read_row(const CoefficientArrays<float>& out, std::size_t of_row, const PackedView& packed) {
   const std::size_t first = of_row * out.row;
-  std::size_t p = first;
-  for (std::uint32_t r = packed.first_run[of_row]; r < packed.first_run[of_row + 1]; ++r) {
-    const unsigned code = packed.runs[r].code;
-    for (const std::size_t end = p + packed.runs[r].n_points; p < end; ++p) {
-      out.k[p] = (code & PackedView::kIonsBit) != 0 ? out.usual.ions : 0.0F;
-      for (unsigned axis = 0; axis < 3; ++axis) out.face(axis)[p] = out.usual_face(code, axis);
-    }
+  for (std::size_t i = 0; i < out.row; ++i) {
+    const unsigned code = packed.code_of(of_row, static_cast<std::uint32_t>(i));
+    out.k[first + i] = (code & MixedPoints::kIonsBit) != 0 ? out.usual.ions : 0.0F;
+    for (unsigned axis = 0; axis < 3; ++axis) out.face(axis)[first + i] = out.usual_face(code, axis);
   }
   for (std::uint32_t n = packed.first_face[of_row]; n < packed.first_face[of_row + 1]; ++n) {
     const ListedFace& face = packed.listed[n];
@@ -59,23 +56,27 @@ std::size_t n_rows(const GridSize& size) {
   return static_cast<std::size_t>(size.ny) * static_cast<std::size_t>(size.nz);
 }
 
-/// [row] see PlainRow.
-Buffer<std::uint8_t> plain_rows(const PackedView& packed, const GridSize& size) {
+/// [row] see PackedView::mixed. A point's faces are its row's, and those of the row before and of that below.
+Buffer<MixedPoints> mixed_points(const Buffer<MixedPoints>& of_rows, const GridSize& size) {
   const std::size_t rows = n_rows(size), ny = static_cast<std::size_t>(size.ny);
-  Buffer<std::uint8_t> alone(rows), among_others(rows);  // the first: as PlainRow, of the row by itself
-  std::uint8_t* const own = raw(alone);
-  std::uint8_t* const plain = raw(among_others);
+  const std::uint32_t n = static_cast<std::uint32_t>(size.nx), end = n - 1;
+  Buffer<MixedPoints> among_others(rows);
+  const MixedPoints* const own = raw(of_rows);
+  MixedPoints* const mixed = raw(among_others);
   for_each_index(rows, [=] ESPDIFF_HD(std::size_t r) {
-    const std::uint32_t first = packed.first_run[r];
-    const unsigned code = packed.runs[first].code;
-    bool is_one = (code & ~PackedView::kIonsBit) == 0 && packed.first_face[r] == packed.first_face[r + 1];
-    for (std::uint32_t n = first; n < packed.first_run[r + 1]; ++n) is_one = is_one && packed.runs[n].code == code;
-    own[r] = !is_one ? kNotPlain : code != 0 ? kWithIons : kWithoutIons;
-  });
-  for_each_index(rows, [=] ESPDIFF_HD(std::size_t r) {
-    const bool is_inner = r % ny > 0 && r % ny < ny - 1 && r >= ny && r + ny < rows;
-    const bool is_among_plain = is_inner && own[r - 1] != kNotPlain && own[r - ny] != kNotPlain;
-    plain[r] = is_among_plain ? own[r] : std::uint8_t{kNotPlain};
+    mixed[r] = {1, end, 0};
+    if (!(r % ny > 0 && r % ny < ny - 1 && r >= ny && r + ny < rows)) return;
+    std::uint32_t first = n, last = 0;
+    for (const std::size_t row : {r, r - 1, r - ny}) {
+      if (!own[row].has_plain_ends()) return;
+      first = own[row].first < first ? own[row].first : first;
+      last = own[row].last > last ? own[row].last : last;
+    }
+    if (first < n) ++last;  // its face before is that of the last one
+    constexpr std::uint32_t kVector = 16;
+    first = first > end ? end : first <= kVector ? 1 : 1 + (first - 1) / kVector * kVector;
+    last = last <= first ? first : first + (last - first + kVector - 1) / kVector * kVector;
+    mixed[r] = {first, last < end ? last : end, own[r].code_of_ends};
   });
   return among_others;
 }
@@ -88,39 +89,61 @@ std::shared_ptr<const PackedOperator> PackedOperator::pack(const GridOperator& o
   packed->size_ = on_grid.size;
   packed->usual_ = usual;
   const std::size_t rows = n_rows(on_grid.size);
-  packed->first_run_.assign(rows + 1, 0);
+  packed->own_.resize(rows);
+  packed->first_word_.assign(rows + 1, 0);
   packed->first_face_.assign(rows + 1, 0);
-  std::uint32_t* const first_run = raw(packed->first_run_);
+  MixedPoints* const own = raw(packed->own_);
+  std::uint32_t* const first_word = raw(packed->first_word_);
   std::uint32_t* const first_face = raw(packed->first_face_);
   const CoefficientArrays<const float> all{raw(on_grid.ex),       raw(on_grid.ey), raw(on_grid.ez),
                                            raw(on_grid.diagonal), usual,           on_grid.size.row()};
   for_each_index(rows, [=] ESPDIFF_HD(std::size_t r) {
-    std::uint32_t n_runs = 0, n_faces = 0;
+    const std::uint32_t n = static_cast<std::uint32_t>(all.row);
+    MixedPoints mixed{n, 0, 0};
+    std::uint32_t n_faces = 0;
+    bool is_listed = false;
     visit_row(
-        all, r, [&](unsigned, unsigned) { ++n_runs; }, [&](std::uint32_t, float) { ++n_faces; });
-    first_run[r] = n_runs;
+        all, r,
+        [&](std::uint32_t i, unsigned code) {
+          if (i == 0) mixed.code_of_ends = code;
+          if (is_listed || code != mixed.code_of_ends) {
+            mixed.first = mixed.last == 0 ? i : mixed.first;
+            mixed.last = i + 1;
+          }
+          is_listed = false;
+        },
+        [&](std::uint32_t, float) {
+          ++n_faces;
+          is_listed = true;
+        });
+    own[r] = mixed;
+    first_word[r] = n_words(mixed);
     first_face[r] = n_faces;
   });
-  const std::uint32_t n_runs = exclusive_scan_in_place(packed->first_run_),
+  const std::uint32_t words_of_all = exclusive_scan_in_place(packed->first_word_),
                       n_listed = exclusive_scan_in_place(packed->first_face_);
   if (std::size_t{n_listed} * points_per_listed > on_grid.size.points()) return nullptr;
-  packed->runs_.resize(n_runs);
+  packed->words_.assign(words_of_all, CodeWord{0});
   packed->listed_.resize(n_listed);
-  CodeRun* const runs = raw(packed->runs_);
+  CodeWord* const words = raw(packed->words_);
   ListedFace* const listed = raw(packed->listed_);
   for_each_index(rows, [=] ESPDIFF_HD(std::size_t r) {
-    CodeRun* next_run = runs + first_run[r];
+    const MixedPoints mixed = own[r];
+    const std::uint32_t n_of_row = n_words(mixed);
+    CodeWord* const of_row = words + first_word[r];
     ListedFace* next_face = listed + first_face[r];
     visit_row(
         all, r,
-        [&](unsigned code, unsigned n) {
-          *next_run++ = {static_cast<std::uint8_t>(code), static_cast<std::uint8_t>(n)};
+        [&](std::uint32_t i, unsigned code) {
+          // Of the points beside the mixed ones too: words are unpacked as a whole.
+          const std::uint32_t word = i / CodeWord::kPoints - mixed.first / CodeWord::kPoints;  // wraps before the first
+          if (word < n_of_row) of_row[word].codes |= std::uint64_t{code} << CodeWord::shift_of(i);
         },
         [&](std::uint32_t place, float value) {
           *next_face++ = {place, value};
         });
   });
-  packed->plain_ = plain_rows(packed->view(), packed->size_);
+  packed->mixed_ = mixed_points(packed->own_, packed->size_);
   return packed;
 }
 

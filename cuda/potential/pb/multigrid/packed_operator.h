@@ -29,27 +29,46 @@ struct ListedFace {
   ESPDIFF_INLINE std::uint32_t axis() const { return place % 4; }
 };
 
-/// Points of a row that have one code: a bit for each face (1 solute, 0 solvent), one for k.
-struct CodeRun {
-  std::uint8_t code, n_points;
+/// The points from `first` to before `last` of a row of n points have other coefficients than those at its ends, which
+/// have one code: a bit for each face (1 solute, 0 solvent), one for k.
+struct MixedPoints {
+  std::uint32_t first, last;
+  std::uint32_t code_of_ends;
 
-  static constexpr unsigned kMostPoints = 255;
+  static constexpr unsigned kIonsBit = 8;
+  ESPDIFF_INLINE bool has_plain_ends() const { return (code_of_ends & ~kIonsBit) == 0; }
+  ESPDIFF_INLINE unsigned has_ions() const { return (code_of_ends & kIonsBit) != 0 ? 1 : 0; }
 };
 
-/// Whether the six faces of all points of a row have the solvent's dielectric, and whether ions are all along it or
-/// nowhere. More than half of the rows around a protein are plain.
-enum PlainRow : std::uint8_t { kNotPlain, kWithoutIons, kWithIons };
+/// The codes of sixteen points of a row, four bits each: a byte has point i's, and above it that of i + 8. Its first
+/// point is a multiple of 16.
+struct CodeWord {
+  std::uint64_t codes;
+
+  static constexpr std::uint32_t kPoints = 16;
+  static constexpr std::uint64_t kLow = 0x0F0F0F0F0F0F0F0FULL;
+  static ESPDIFF_INLINE unsigned shift_of(std::uint32_t point) { return point % 8 * 8 + point % 16 / 8 * 4; }
+  ESPDIFF_INLINE unsigned of(std::uint32_t point) const { return static_cast<unsigned>(codes >> shift_of(point)) & 15U; }
+};
 
 /// Packed coefficients, for kernels. A row of points along x is numbered y + ny z.
 struct PackedView {
-  const std::uint32_t* first_run;   ///< [row + 1] of `runs`
-  const CodeRun* runs;              ///< in the order of points
+  const MixedPoints* own;           ///< [row] by the row's own coefficients
+  const std::uint32_t* first_word;  ///< [row + 1] of `words`, those of its own mixed points
+  const CodeWord* words;
   const std::uint32_t* first_face;  ///< [row + 1] of `listed`
   const ListedFace* listed;         ///< in the order of points, then of x, y, z
-  const std::uint8_t* plain;        ///< [row] see PlainRow
+  /// [row] All six faces of points that are not mixed have the solvent's dielectric. More than half of the rows around
+  /// a protein have no mixed points, first = last = n - 1, and of the others about half of the points are not. Both ends
+  /// but the last are whole vectors. Of rows of the grid's border all inner points.
+  const MixedPoints* mixed;
   UsualCoefficients usual;
 
-  static constexpr unsigned kIonsBit = 8;
+  ESPDIFF_INLINE unsigned code_of(std::size_t row, std::uint32_t point) const {
+    const MixedPoints& of = own[row];
+    if (point < of.first || point >= of.last) return of.code_of_ends;
+    return words[first_word[row] + point / CodeWord::kPoints - of.first / CodeWord::kPoints].of(point);
+  }
 };
 
 class PackedOperator {
@@ -61,15 +80,17 @@ class PackedOperator {
                                                     std::size_t points_per_listed = 8);
   /// Fills in the coefficients, bit by bit those that were packed; the diagonal holds k alone.
   void unpack(GridOperator& on_grid) const;
-  PackedView view() const { return {raw(first_run_), raw(runs_), raw(first_face_), raw(listed_), raw(plain_), usual_}; }
+  PackedView view() const { 
+    return {raw(own_), raw(first_word_), raw(words_), raw(first_face_), raw(listed_), raw(mixed_), usual_};
+  }
 
  private:
   GridSize size_;
   UsualCoefficients usual_;
-  Buffer<std::uint32_t> first_run_, first_face_;
-  Buffer<CodeRun> runs_;
+  Buffer<std::uint32_t> first_word_, first_face_;
+  Buffer<CodeWord> words_;
   Buffer<ListedFace> listed_;
-  Buffer<std::uint8_t> plain_;
+  Buffer<MixedPoints> own_, mixed_;
 };
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -8,7 +8,7 @@ namespace {
 template <typename Sum>
 struct RowNeighbours {
   const float *ex, *ey, *ey_before, *ez, *ez_below, *below, *here, *above;
-  std::size_t row;
+  std::ptrdiff_t row;
 
   ESPDIFF_INLINE RowNeighbours(const OperatorRow& a, const Planes& x, std::size_t of_row)
       : ex(a.ex),
@@ -19,90 +19,102 @@ struct RowNeighbours {
         below(x.below),
         here(x.here),
         above(x.above),
-        row(of_row) {}
+        row(static_cast<std::ptrdiff_t>(of_row)) {}
   static ESPDIFF_INLINE Sum product(float a, float b) { return static_cast<Sum>(a) * static_cast<Sum>(b); }
-  ESPDIFF_INLINE Sum operator()(std::size_t i) const {
+  ESPDIFF_INLINE Sum operator()(std::ptrdiff_t i) const {
     const Sum along_x = product(ex[i], here[i + 1]) + product(ex[i - 1], here[i - 1]);
-    const Sum along_y = product(ey[i], here[i + row]) + product(ey_before[i], *(here + i - row));
+    const Sum along_y = product(ey[i], here[i + row]) + product(ey_before[i], here[i - row]);
     const Sum along_z = product(ez[i], above[i]) + product(ez_below[i], below[i]);
     return along_x + along_y + along_z;
   }
 };
 
-/// The same for a plain row, whose faces all have one dielectric: the same products, without reading it for each.
+/// The same for the plain ends of a row, whose faces all have one dielectric: the same products, without reading it for each.
 struct PlainNeighbours {
   float e;
   const float *below, *here, *above;
-  std::size_t row;
+  std::ptrdiff_t row;
 
   ESPDIFF_INLINE PlainNeighbours(const OperatorRow& a, const Planes& x, std::size_t of_row)
-      : e(a.plain), below(x.below), here(x.here), above(x.above), row(of_row) {}
+      : e(a.plain), below(x.below), here(x.here), above(x.above), row(static_cast<std::ptrdiff_t>(of_row)) {}
   static ESPDIFF_INLINE float product(float a, float b) { return a * b; }
-  ESPDIFF_INLINE float operator()(std::size_t i) const {
+  ESPDIFF_INLINE float operator()(std::ptrdiff_t i) const {
     const float along_x = e * here[i + 1] + e * here[i - 1];
-    const float along_y = e * here[i + row] + e * *(here + i - row);
+    const float along_y = e * here[i + row] + e * here[i - row];
     const float along_z = e * above[i] + e * below[i];
     return along_x + along_y + along_z;
   }
 };
 
-ESPDIFF_MULTIVERSION void start_row(const float* diagonal, std::size_t nx, int parity, const float* b, float* x) {
-  const int odd = parity;
+ESPDIFF_INLINE void start(const float* diagonal, int first, int last, int parity, const float* b,
+                          float* x) {
 #pragma GCC ivdep
-  for (std::size_t i = 1; i < nx - 1; ++i) x[i] = ((static_cast<int>(i) + odd) & 1) == 0 ? b[i] / diagonal[i] : 0.0F;
-}
-
-template <typename Neighbours>
-ESPDIFF_INLINE void sweep(const OperatorRow& a, std::size_t nx, int parity, int colour, const float* b, const Planes& x,
-                          float* out) {
-  const Neighbours neighbours(a, x, nx);
-  const float* const diagonal = a.diagonal;
-  const float* const here = x.here;
-#pragma GCC ivdep
-  for (std::size_t i = 1; i < nx - 1; ++i) {
-    const float renewed = (b[i] + neighbours(i)) / diagonal[i];
-    out[i] = ((static_cast<int>(i) + parity) & 1) == colour ? renewed : here[i];
+  for (int i = first; i < last; ++i) {
+    const float all = b[i] / diagonal[i];
+    x[i] = ((i + parity) & 1) == 0 ? all : 0.0F;
   }
 }
+ESPDIFF_MULTIVERSION void start_row(const OperatorRow& a, int parity, const float* b, float* x) {
+  const OperatorRow of = a;
+  start(of.plain_diagonal, 1, of.first, parity, b, x);
+  start(of.diagonal, of.first, of.last, parity, b, x);
+  start(of.plain_diagonal, of.last, of.end, parity, b, x);
+}
 
+template <typename Neighbours>
+ESPDIFF_INLINE void sweep(const Neighbours& of, const float* diagonal, int first, int last, int parity,
+                          int colour, const float* b, const float* here, float* out) {
+  const Neighbours neighbours = of;
+#pragma GCC ivdep
+  for (int i = first; i < last; ++i) {
+    const float renewed = (b[i] + neighbours(i)) / diagonal[i];
+    out[i] = ((i + parity) & 1) == colour ? renewed : here[i];
+  }
+}
 ESPDIFF_MULTIVERSION void sweep_row(const OperatorRow& a, std::size_t nx, int parity, int colour, const float* b,
                                     const Planes& x, float* out) {
-  if (a.plain > 0)
-    sweep<PlainNeighbours>(a, nx, parity, colour, b, x, out);
-  else
-    sweep<RowNeighbours<float>>(a, nx, parity, colour, b, x, out);
+  const OperatorRow of = a;
+  const PlainNeighbours plain(of, x, nx);
+  const float* const here = x.here;
+  sweep(plain, of.plain_diagonal, 1, of.first, parity, colour, b, here, out);
+  sweep(RowNeighbours<float>(of, x, nx), of.diagonal, of.first, of.last, parity, colour, b, here, out);
+  sweep(plain, of.plain_diagonal, of.last, of.end, parity, colour, b, here, out);
 }
 
 template <typename Neighbours>
-ESPDIFF_INLINE void red_residual(const OperatorRow& a, std::size_t nx, int parity, const Planes& x, float* r) {
-  const Neighbours neighbours(a, x, nx);
+ESPDIFF_INLINE void red_residual(const Neighbours& of, int first, int last, int parity, float* r) {
+  const Neighbours neighbours = of;
 #pragma GCC ivdep
-  for (std::size_t i = 1; i < nx - 1; ++i) r[i] = ((static_cast<int>(i) + parity) & 1) == 0 ? neighbours(i) : 0.0F;
+  for (int i = first; i < last; ++i) {
+    const float all = neighbours(i);  // of black points too: loads under a mask are slower
+    r[i] = ((i + parity) & 1) == 0 ? all : 0.0F;
+  }
 }
 ESPDIFF_MULTIVERSION void residual_row(const OperatorRow& a, std::size_t nx, int parity, const Planes& x, float* r) {
-  if (a.plain > 0)
-    red_residual<PlainNeighbours>(a, nx, parity, x, r);
-  else
-    red_residual<RowNeighbours<float>>(a, nx, parity, x, r);
+  const OperatorRow of = a;
+  const PlainNeighbours plain(of, x, nx);
+  red_residual(plain, 1, of.first, parity, r);
+  red_residual(RowNeighbours<float>(of, x, nx), of.first, of.last, parity, r);
+  red_residual(plain, of.last, of.end, parity, r);
 }
 
 template <typename Neighbours>
-ESPDIFF_INLINE void multiply_row(const OperatorRow& a, std::size_t nx, const Planes& x, float* y) {
-  const Neighbours neighbours(a, x, nx);
-  const float* const diagonal = a.diagonal;
-  const float* const here = x.here;
+ESPDIFF_INLINE void multiply(const Neighbours& of, const float* diagonal, int first, int last,
+                             const float* here, float* y) {
+  const Neighbours neighbours = of;
 #pragma GCC ivdep
-  for (std::size_t i = 1; i < nx - 1; ++i)
+  for (int i = first; i < last; ++i)
     y[i] = static_cast<float>(neighbours.product(diagonal[i], here[i]) - neighbours(i));
 }
 ESPDIFF_MULTIVERSION void apply_row(const OperatorRow& a, std::size_t nx, const Planes& x, float* y) {
-  if (a.plain > 0)
-    multiply_row<PlainNeighbours>(a, nx, x, y);
-  else
-    multiply_row<RowNeighbours<float>>(a, nx, x, y);
+  const OperatorRow of = a;
+  const PlainNeighbours plain(of, x, nx);
+  multiply(plain, of.plain_diagonal, 1, of.first, x.here, y);
+  multiply(RowNeighbours<float>(of, x, nx), of.diagonal, of.first, of.last, x.here, y);
+  multiply(plain, of.plain_diagonal, of.last, of.end, x.here, y);
 }
 ESPDIFF_MULTIVERSION void apply_row_exactly(const OperatorRow& a, std::size_t nx, const Planes& x, float* y) {
-  multiply_row<RowNeighbours<double>>(a, nx, x, y);
+  multiply(RowNeighbours<double>(a, x, nx), a.diagonal, a.first, a.last, x.here, y);
 }
 
 /// The terms of A x in double precision, for x in one or two parts.
@@ -145,7 +157,7 @@ void for_rows(OperatorRows& a, const GridSize& size, int k, RowRange rows, const
 
 void start_plane(OperatorRows& a, const GridSize& size, int k, RowRange rows, const float* b, float* x) {
   for_rows(a, size, k, rows, [&](const OperatorRow& row, std::size_t first, int parity) {
-    start_row(row.diagonal, size.row(), parity, b + first, x + first);
+    start_row(row, parity, b + first, x + first);
   });
 }
 void sweep_plane(OperatorRows& a, const GridSize& size, int k, RowRange rows, int colour, const float* b,

@@ -97,7 +97,7 @@ void PlaneSweeps::smooth_and_restrict(const GridOperator& a, const Buffer<float>
     const RowRange restricting{2 * strip.first - 1, std::max(2 * strip.last, fine.last)};
     const RowRange of_r = with_halo(size, restricting, 0), of_black = with_halo(size, restricting, 1),
                    of_x = with_halo(size, restricting, 2);
-    OperatorRows rows(a, own.coefficients, PlainRows::kLeftOut, of_x);
+    OperatorRows rows(a, own.coefficients, PlainEnds::kLeftOut, of_x);
     const Part part = part_of(1, coarse.nz - 1, static_cast<int>(range), n);  // of coarse planes
     const int first = range == 0 ? 1 : 2 * part.first - 1,
               last = static_cast<int>(range) == n - 1 ? size.nz - 1 : 2 * part.last - 1;
@@ -161,7 +161,7 @@ double PlaneSweeps::correct_and_smooth(const GridOperator& a, const Buffer<float
   const auto sweep_strip = [&](std::size_t range, RowRange strip) {
     Own& own = own_[range];
     const RowRange of_x = with_halo(size, strip, 2), of_black = with_halo(size, strip, 1);
-    OperatorRows rows(a, own.coefficients, PlainRows::kLeftOut, of_black);
+    OperatorRows rows(a, own.coefficients, PlainEnds::kLeftOut, of_black);
     const Part part = part_of_range(range);
     const auto x_of = [&](int k) { return is_inner(k) ? raw(own.x[k % 3]) : raw(own.zero); };
     const auto black_of = [&](int k) { return is_inner(k) ? raw(own.black[k % 3]) : raw(own.zero); };
@@ -228,7 +228,7 @@ double PlaneSweeps::turn_and_apply(const GridOperator& a, float beta, Products f
   const std::vector<RowRange> strips = strips_of(1, size.ny - 1, row);
   const auto apply_strip = [&](std::size_t range, RowRange strip) {
     Own& own = own_[range];
-    OperatorRows rows(a, own.coefficients, form == Products::kExact ? PlainRows::kUnpacked : PlainRows::kLeftOut,
+    OperatorRows rows(a, own.coefficients, form == Products::kExact ? PlainEnds::kUnpacked : PlainEnds::kLeftOut,
                       strip);
     const Part part = part_of_range(range);
     const auto p_of = [&](int k) -> const float* {
@@ -265,7 +265,7 @@ void subtract_exactly_by_rows(const GridOperator& a, const Buffer<float>& x, con
   const int n = n_ranges(a.size);
   for_each_index(static_cast<std::size_t>(n), [&, n](std::size_t range) {
     Buffer<float> coefficients;
-    OperatorRows rows(a, coefficients, PlainRows::kUnpacked);
+    OperatorRows rows(a, coefficients, PlainEnds::kUnpacked);
     const Part part = part_of(1, a.size.nz - 1, static_cast<int>(range), n);
     for (int k = part.first; k < part.last; ++k) {
       const std::size_t first = plane * static_cast<std::size_t>(k);
