@@ -17,21 +17,106 @@ struct CoefficientArrays {
   }
 };
 
-/// Calls point(place in the row, code) for the points of a row, and before it face(4 * point + axis, value) for the
-/// faces to be listed.
-template <typename Point, typename Face>
-ESPDIFF_INLINE void visit_row(const CoefficientArrays<const float>& in, std::size_t of_row, Point point, Face face) {
-  for (std::size_t i = 0; i < in.row; ++i) {
-    const std::size_t p = of_row * in.row + i;
-    unsigned code = in.k[p] != 0.0F ? MixedPoints::kIonsBit : 0;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      const float value = in.face(axis)[p];
-      code |= (value == in.usual.solute ? 1U : 0U) << axis;
-      if (value != in.usual_face(code, axis)) face(static_cast<std::uint32_t>(4 * i + axis), value);
+/// The codes of the points of a word, a byte each, with a bit where one of the faces is to be listed.
+struct CodedPoints {
+  std::uint8_t codes[CodeWord::kPoints];
+
+  static constexpr unsigned kListed = 16;
+
+  /// @param p the first one's index; of `n` points, others get the code given
+  ESPDIFF_INLINE CodedPoints(const CoefficientArrays<const float>& in, std::size_t p, std::uint32_t n, unsigned beyond) {
+    const float* const ex = in.ex + p;
+    const float* const ey = in.ey + p;
+    const float* const ez = in.ez + p;
+    const float* const k = in.k + p;
+    const float solute = in.usual.solute, solvent = in.usual.solvent;
+    const auto code_of = [=] ESPDIFF_HD(std::uint32_t i) ESPDIFF_INLINE_LAMBDA {
+      const int x = ex[i] == solute, y = ey[i] == solute, z = ez[i] == solute, ions = k[i] != 0.0F;
+      const int listed = ((ex[i] != solvent) & ~x) | ((ey[i] != solvent) & ~y) | ((ez[i] != solvent) & ~z);
+      return static_cast<std::uint8_t>(x | y << 1 | z << 2 | ions << 3 | listed << 4);
+    };
+    if (n >= CodeWord::kPoints) {
+      for (std::uint32_t i = 0; i < CodeWord::kPoints; ++i) codes[i] = code_of(i);
+    } else {
+      for (std::uint32_t i = 0; i < n; ++i) codes[i] = code_of(i);
+      for (std::uint32_t i = n; i < CodeWord::kPoints; ++i) codes[i] = static_cast<std::uint8_t>(beyond);
     }
-    point(static_cast<std::uint32_t>(i), code);
+  }
+  ESPDIFF_INLINE std::uint64_t half(unsigned h) const {
+    std::uint64_t eight = 0;
+    for (unsigned i = 0; i < 8; ++i) eight |= std::uint64_t{codes[8 * h + i]} << 8 * i;
+    return eight;
+  }
+  ESPDIFF_INLINE bool are_all(unsigned code) const {
+    const std::uint64_t eight = 0x0101010101010101ULL * code;
+    return half(0) == eight && half(1) == eight;
+  }
+  ESPDIFF_INLINE CodeWord word() const { return {(half(0) & CodeWord::kLow) | (half(1) & CodeWord::kLow) << 4}; }
+};
+
+/// Calls listed(4 * point + axis, value) for the faces of a point that are to be listed.
+template <typename Listed>
+ESPDIFF_INLINE void visit_listed(const CoefficientArrays<const float>& in, std::size_t row, std::uint32_t point,
+                                 const Listed& listed) {
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    const float value = in.face(axis)[row * in.row + point];
+    if (value != in.usual.solute && value != in.usual.solvent) listed(4 * point + axis, value);
   }
 }
+
+struct RowScan {
+  MixedPoints own;
+  std::uint32_t n_listed;
+};
+ESPDIFF_INLINE RowScan scan(const CoefficientArrays<const float>& in, std::size_t row) {
+  const std::uint32_t n = static_cast<std::uint32_t>(in.row);
+  const unsigned ends = CodedPoints(in, row * in.row, 1, 0).codes[0] & 15U;
+  RowScan found{{n, 0, ends}, 0};
+  for (std::uint32_t first = 0; first < n; first += CodeWord::kPoints) {
+    const CodedPoints points(in, row * in.row + first, n - first, ends);
+    if (points.are_all(ends)) continue;
+    for (std::uint32_t i = 0; i < CodeWord::kPoints; ++i) {
+      if (points.codes[i] == ends) continue;
+      if (found.own.last == 0) found.own.first = first + i;
+      found.own.last = first + i + 1;
+      if ((points.codes[i] & CodedPoints::kListed) != 0)
+        visit_listed(in, row, first + i, [&](std::uint32_t, float) { ++found.n_listed; });
+    }
+  }
+  return found;
+}
+
+/// Writes the words of a row's own mixed points, and its listed faces.
+ESPDIFF_INLINE void write(const CoefficientArrays<const float>& in, std::size_t row, const MixedPoints& own,
+                          CodeWord* words, ListedFace* listed) {
+  for (std::uint32_t first = own.first / CodeWord::kPoints * CodeWord::kPoints; first < own.last;
+       first += CodeWord::kPoints) {
+    const CodedPoints points(in, row * in.row + first, static_cast<std::uint32_t>(in.row) - first, 0);
+    *words++ = points.word();
+    for (std::uint32_t i = 0; i < CodeWord::kPoints; ++i) {
+      if ((points.codes[i] & CodedPoints::kListed) == 0) continue;
+      visit_listed(in, row, first + i, [&](std::uint32_t place, float value) {
+        *listed++ = {place, value};
+      });
+    }
+  }
+}
+
+#if defined(__CUDACC__)
+ESPDIFF_INLINE RowScan scan_row(const CoefficientArrays<const float>& in, std::size_t row) { return scan(in, row); }
+ESPDIFF_INLINE void write_row(const CoefficientArrays<const float>& in, std::size_t row, const MixedPoints& own,
+                              CodeWord* words, ListedFace* listed) {
+  write(in, row, own, words, listed);
+}
+#else
+ESPDIFF_MULTIVERSION RowScan scan_row(const CoefficientArrays<const float>& in, std::size_t row) {
+  return scan(in, row);
+}
+ESPDIFF_MULTIVERSION void write_row(const CoefficientArrays<const float>& in, std::size_t row, const MixedPoints& own,
+                                    CodeWord* words, ListedFace* listed) {
+  write(in, row, own, words, listed);
+}
+#endif
 
 /// Words of the codes of a row's own mixed points.
 ESPDIFF_INLINE std::uint32_t n_words(const MixedPoints& own) {
@@ -98,50 +183,20 @@ std::shared_ptr<const PackedOperator> PackedOperator::pack(const GridOperator& o
   const CoefficientArrays<const float> all{raw(on_grid.ex),       raw(on_grid.ey), raw(on_grid.ez),
                                            raw(on_grid.diagonal), usual,           on_grid.size.row()};
   for_each_index(rows, [=] ESPDIFF_HD(std::size_t r) {
-    const std::uint32_t n = static_cast<std::uint32_t>(all.row);
-    MixedPoints mixed{n, 0, 0};
-    std::uint32_t n_faces = 0;
-    bool is_listed = false;
-    visit_row(
-        all, r,
-        [&](std::uint32_t i, unsigned code) {
-          if (i == 0) mixed.code_of_ends = code;
-          if (is_listed || code != mixed.code_of_ends) {
-            mixed.first = mixed.last == 0 ? i : mixed.first;
-            mixed.last = i + 1;
-          }
-          is_listed = false;
-        },
-        [&](std::uint32_t, float) {
-          ++n_faces;
-          is_listed = true;
-        });
-    own[r] = mixed;
-    first_word[r] = n_words(mixed);
-    first_face[r] = n_faces;
+    const RowScan found = scan_row(all, r);
+    own[r] = found.own;
+    first_word[r] = n_words(found.own);
+    first_face[r] = found.n_listed;
   });
   const std::uint32_t words_of_all = exclusive_scan_in_place(packed->first_word_),
                       n_listed = exclusive_scan_in_place(packed->first_face_);
   if (std::size_t{n_listed} * points_per_listed > on_grid.size.points()) return nullptr;
-  packed->words_.assign(words_of_all, CodeWord{0});
+  packed->words_.resize(words_of_all);
   packed->listed_.resize(n_listed);
   CodeWord* const words = raw(packed->words_);
   ListedFace* const listed = raw(packed->listed_);
   for_each_index(rows, [=] ESPDIFF_HD(std::size_t r) {
-    const MixedPoints mixed = own[r];
-    const std::uint32_t n_of_row = n_words(mixed);
-    CodeWord* const of_row = words + first_word[r];
-    ListedFace* next_face = listed + first_face[r];
-    visit_row(
-        all, r,
-        [&](std::uint32_t i, unsigned code) {
-          // Of the points beside the mixed ones too: words are unpacked as a whole.
-          const std::uint32_t word = i / CodeWord::kPoints - mixed.first / CodeWord::kPoints;  // wraps before the first
-          if (word < n_of_row) of_row[word].codes |= std::uint64_t{code} << CodeWord::shift_of(i);
-        },
-        [&](std::uint32_t place, float value) {
-          *next_face++ = {place, value};
-        });
+    write_row(all, r, own[r], words + first_word[r], listed + first_face[r]);
   });
   packed->mixed_ = mixed_points(packed->own_, packed->size_);
   return packed;
