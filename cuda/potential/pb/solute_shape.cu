@@ -93,20 +93,43 @@ ESPDIFF_INLINE void visit_disc(const CubicLattice& lattice, int k, Vec3f centre,
   }
 }
 
-/// Calls each(i) for the points from i0 to before i1 of a row, in whole lanes: for their neighbours too, which each()
-/// must leave as they are, or give what all points may have.
-template <typename Each>
-ESPDIFF_INLINE void for_lanes(int i0, int i1, int n_in_row, Each each) {
-  constexpr int kRowLanes = 8;
-  const int width = (i1 - i0 + kRowLanes - 1) / kRowLanes * kRowLanes;
-  if (width > n_in_row) {
-    for (int i = i0; i < i1; ++i) each(i);
-    return;
-  }
-  const int first = std::min(i0, n_in_row - width);
-  for (int i = first; i < first + width; i += kRowLanes) {
+/// Of the points of a plane within a distance of a centre, and of points beside them, renews the values:
+/// value = merge(value, square of the distance from the centre). Sixteen points of all rows at a time.
+template <typename Merge>
+ESPDIFF_INLINE void merge_squares(const CubicLattice& of, int k, Vec3f centre, float radius, float* plane,
+                                  Merge merge) {
+  const CubicLattice lattice = of;  // a copy, which the plane's values cannot change
+  const float dz = lattice.coordinate(2, k) - centre.z, reach = radius * radius - dz * dz, inverse = 1 / lattice.spacing;
+  if (!(reach > 0)) return;
+  const float disc = sqrtf(reach);
+  const auto below = [=](int axis) {
+    return std::max(0, static_cast<int>((centre[axis] - disc - lattice.origin[axis]) * inverse));
+  };
+  const auto above = [=](int axis) {
+    const int last = static_cast<int>((centre[axis] + disc - lattice.origin[axis]) * inverse) + 1;
+    return std::min(lattice.size[axis] - 1, last);
+  };
+  constexpr int kLanes = 16;
+  const int n_in_row = lattice.size[0], n = std::min(kLanes, n_in_row), i1 = above(0), j0 = below(1), j1 = above(1);
+  for (int i = below(0); i <= i1; i += kLanes) {
+    const int first = std::min(i, n_in_row - n);
+    float squares[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const float dx = lattice.coordinate(0, first + lane) - centre.x;
+      squares[lane] = dx * dx;
+    }
+    for (int j = j0; j <= j1; ++j) {
+      const float dy = lattice.coordinate(1, j) - centre.y;
+      float* const row = plane + lattice.index(first, j, 0);
+      const auto renew = [&](int lane)
+                             ESPDIFF_INLINE_LAMBDA { row[lane] = merge(row[lane], squares[lane] + dy * dy + dz * dz); };
+      if (n == kLanes) {
 #pragma omp simd
-    for (int lane = 0; lane < kRowLanes; ++lane) each(i + lane);
+        for (int lane = 0; lane < kLanes; ++lane) renew(lane);
+      } else {
+        for (int lane = 0; lane < n; ++lane) renew(lane);
+      }
+    }
   }
 }
 
@@ -122,27 +145,22 @@ struct PlaneFill {
 
 /// Depth of points in the enlarged spheres, or the greatest depth if it does not matter.
 ESPDIFF_INLINE void mark_spheres(const PlaneFill& in, int k) {
-  const CubicLattice lattice = in.lattice;  // a copy, which the rows' values cannot change
   const AtomCellsView& cells = in.shape.atoms.cells;
   const float z = in.lattice.coordinate(2, k);
   const bool needs_depth = in.shape.needs_depth_outside();
+  float* const plane = in.depths + in.lattice.index(0, 0, k);
   for (std::uint32_t a = 0; a < in.n_atoms; ++a) {
-    const float radius = in.shape.atoms.radius[a], reach = radius + in.shape.margin, x = cells.x[a];
+    const float radius = in.shape.atoms.radius[a], reach = radius + in.shape.margin;
     if (fabsf(cells.z[a] - z) >= reach) continue;
-    visit_disc(in.lattice, k, in.shape.atoms.centre(a), reach,
-               [&](int j, int i0, int i1, float dy, float dz) ESPDIFF_INLINE_LAMBDA {
-                 float* const row = in.depths + in.lattice.index(0, j, k);
-                 if (needs_depth) {
-                   for_lanes(i0, i1, lattice.size[0], [=](int i) ESPDIFF_INLINE_LAMBDA {
-                     row[i] = larger(row[i], radius - sqrtf(square_of(lattice.coordinate(0, i) - x, dy, dz)));
-                   });
-                 } else {
-                   for_lanes(i0, i1, lattice.size[0], [=](int i) ESPDIFF_INLINE_LAMBDA {
-                     const float before = row[i];
-                     row[i] = square_of(lattice.coordinate(0, i) - x, dy, dz) < radius * radius ? kDeepest_A : before;
-                   });
-                 }
-               });
+    if (needs_depth) {
+      merge_squares(in.lattice, k, in.shape.atoms.centre(a), reach, plane,
+                    [=](float before, float square)
+                        ESPDIFF_INLINE_LAMBDA { return larger(before, radius - sqrtf(square)); });
+    } else {
+      merge_squares(in.lattice, k, in.shape.atoms.centre(a), reach, plane,
+                    [=](float before, float square)
+                        ESPDIFF_INLINE_LAMBDA { return square < radius * radius ? kDeepest_A : before; });
+    }
   }
 }
 
@@ -176,12 +194,8 @@ ESPDIFF_INLINE void reach_arcs(const PlaneFill& in, int k) {
   for (std::uint32_t n = in.first_probe[k]; n < in.first_probe[k + 1]; ++n) {
     const std::uint32_t c = in.probes[n];
     const Vec3f centre{in.shape.probes.x[c], in.shape.probes.y[c], in.shape.probes.z[c]};
-    visit_disc(in.lattice, k, centre, reach, [&](int j, int i0, int i1, float dy, float dz) ESPDIFF_INLINE_LAMBDA {
-      float* const row = squares + lattice.index(0, j, 0);
-      for_lanes(i0, i1, lattice.size[0], [=](int i) ESPDIFF_INLINE_LAMBDA {
-        row[i] = smaller(square_of(lattice.coordinate(0, i) - centre.x, dy, dz), row[i]);
-      });
-    });
+    merge_squares(lattice, k, centre, reach, squares,
+                  [=](float before, float square) ESPDIFF_INLINE_LAMBDA { return smaller(square, before); });
   }
   float* const depths = in.depths + plane * static_cast<std::size_t>(k);
   for (std::size_t i = 0; i < plane; ++i) {
