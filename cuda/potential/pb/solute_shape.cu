@@ -74,31 +74,14 @@ ESPDIFF_INLINE float depth_at(const ShapeView& shape, Vec3f p) {
 
 #if !defined(ESPDIFF_BACKEND_CUDA)
 
-/// The points of a plane within a distance of a centre, row by row: visit(first point's index, j, first i, end i).
-template <typename Visit>
-ESPDIFF_INLINE void visit_disc(const CubicLattice& lattice, int k, Vec3f centre, float radius, Visit visit) {
-  const float dz = lattice.coordinate(2, k) - centre.z, reach = radius * radius - dz * dz;
-  if (!(reach > 0)) return;
-  const float disc = sqrtf(reach), inverse = 1.0F / lattice.spacing;
-  const int j0 = std::max(0, static_cast<int>((centre.y - disc - lattice.origin.y) * inverse)),
-            j1 = std::min(lattice.size[1] - 1, static_cast<int>((centre.y + disc - lattice.origin.y) * inverse) + 1);
-  for (int j = j0; j <= j1; ++j) {
-    const float dy = lattice.coordinate(1, j) - centre.y, left = reach - dy * dy;
-    if (!(left > 0)) continue;
-    const float half = sqrtf(left);
-    // One more point on each side: visit() tests the distance itself.
-    const int i0 = std::max(0, static_cast<int>((centre.x - half - lattice.origin.x) * inverse)),
-              i1 = std::min(lattice.size[0] - 1, static_cast<int>((centre.x + half - lattice.origin.x) * inverse) + 1);
-    visit(j, i0, i1 + 1, dy, dz);
-  }
-}
+constexpr int kRowLanes = 16;
 
-/// Of the points of a plane within a distance of a centre, and of points beside them, renews the values:
-/// value = merge(value, square of the distance from the centre). Sixteen points of all rows at a time.
-template <typename Merge>
-ESPDIFF_INLINE void merge_squares(const CubicLattice& of, int k, Vec3f centre, float radius, float* plane,
-                                  Merge merge) {
-  const CubicLattice lattice = of;  // a copy, which the plane's values cannot change
+/// The points of a plane within a distance of a centre, and points beside them: rows in stretches of kRowLanes points,
+/// or of all points of shorter rows. Calls of_stretch(first i) and then, for its rows, of_row(first i, first point's
+/// index in the plane, dy, dz).
+template <typename OfStretch, typename OfRow>
+ESPDIFF_INLINE void visit_disc(const CubicLattice& lattice, int k, Vec3f centre, float radius, OfStretch of_stretch,
+                               OfRow of_row) {
   const float dz = lattice.coordinate(2, k) - centre.z, reach = radius * radius - dz * dz, inverse = 1 / lattice.spacing;
   if (!(reach > 0)) return;
   const float disc = sqrtf(reach);
@@ -109,28 +92,42 @@ ESPDIFF_INLINE void merge_squares(const CubicLattice& of, int k, Vec3f centre, f
     const int last = static_cast<int>((centre[axis] + disc - lattice.origin[axis]) * inverse) + 1;
     return std::min(lattice.size[axis] - 1, last);
   };
-  constexpr int kLanes = 16;
-  const int n_in_row = lattice.size[0], n = std::min(kLanes, n_in_row), i1 = above(0), j0 = below(1), j1 = above(1);
-  for (int i = below(0); i <= i1; i += kLanes) {
-    const int first = std::min(i, n_in_row - n);
-    float squares[kLanes];
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const float dx = lattice.coordinate(0, first + lane) - centre.x;
-      squares[lane] = dx * dx;
-    }
-    for (int j = j0; j <= j1; ++j) {
-      const float dy = lattice.coordinate(1, j) - centre.y;
-      float* const row = plane + lattice.index(first, j, 0);
-      const auto renew = [&](int lane)
-                             ESPDIFF_INLINE_LAMBDA { row[lane] = merge(row[lane], squares[lane] + dy * dy + dz * dz); };
-      if (n == kLanes) {
-#pragma omp simd
-        for (int lane = 0; lane < kLanes; ++lane) renew(lane);
-      } else {
-        for (int lane = 0; lane < n; ++lane) renew(lane);
-      }
-    }
+  const int i1 = above(0), j0 = below(1), j1 = above(1), last = lattice.size[0] - std::min(kRowLanes, lattice.size[0]);
+  for (int i = below(0); i <= i1; i += kRowLanes) {
+    const int first = std::min(i, last);
+    of_stretch(first);
+    for (int j = j0; j <= j1; ++j)
+      of_row(first, lattice.index(first, j, 0), lattice.coordinate(1, j) - centre.y, dz);
   }
+}
+
+/// Of the points of visit_disc(), renews the values: value = merge(value, square of the distance from the centre).
+template <typename Merge>
+ESPDIFF_INLINE void merge_squares(const CubicLattice& of, int k, Vec3f centre, float radius, float* plane,
+                                  Merge merge) {
+  const CubicLattice lattice = of;  // a copy, which the plane's values cannot change
+  const int n = std::min(kRowLanes, lattice.size[0]);
+  float squares[kRowLanes];
+  visit_disc(
+      lattice, k, centre, radius,
+      [&](int first) ESPDIFF_INLINE_LAMBDA {
+        for (int lane = 0; lane < kRowLanes; ++lane) {
+          const float dx = lattice.coordinate(0, first + lane) - centre.x;
+          squares[lane] = dx * dx;
+        }
+      },
+      [&](int, std::size_t index, float dy, float dz) ESPDIFF_INLINE_LAMBDA {
+        float* const row = plane + index;
+        const auto renew = [&](int lane) ESPDIFF_INLINE_LAMBDA {
+          row[lane] = merge(row[lane], squares[lane] + dy * dy + dz * dz);
+        };
+        if (n == kRowLanes) {
+#pragma omp simd
+          for (int lane = 0; lane < kRowLanes; ++lane) renew(lane);
+        } else {
+          for (int lane = 0; lane < n; ++lane) renew(lane);
+        }
+      });
 }
 
 struct PlaneFill {
@@ -164,23 +161,80 @@ ESPDIFF_INLINE void mark_spheres(const PlaneFill& in, int k) {
   }
 }
 
+/// Points of a stretch, projected onto the enlarged sphere of an atom.
+struct ProjectedPoints {
+  float x[kRowLanes], y[kRowLanes], z[kRowLanes], depth[kRowLanes];
+  int is_free[kRowLanes];  ///< -1 where the probe may fit, and brings the point less deep than it was
+
+  /// @param before the depths so far, of `n` points
+  ESPDIFF_INLINE ProjectedPoints(const ShapeView& shape, const CubicLattice& lattice, Vec3f centre, float radius,
+                                 int first, float dy, float dz, const float* before, int n) {
+    const float probe = shape.probe, reach = shape.reach;
+    float depth_before[kRowLanes];
+    if (n == kRowLanes) {
+      for (int lane = 0; lane < kRowLanes; ++lane) depth_before[lane] = before[lane];
+    } else {
+      for (int lane = 0; lane < kRowLanes; ++lane) depth_before[lane] = lane < n ? before[lane] : -kDeepest_A;
+    }
+#pragma omp simd
+    for (int lane = 0; lane < kRowLanes; ++lane) {
+      const float dx = lattice.coordinate(0, first + lane) - centre.x, d = sqrtf(square_of(dx, dy, dz)),
+                  by_atom = radius - d, scale = radius / d;
+      x[lane] = centre.x + scale * dx;
+      y[lane] = centre.y + scale * dy;
+      z[lane] = centre.z + scale * dz;
+      depth[lane] = by_atom - probe;
+      const bool matters = (by_atom > 0.0F) & (by_atom < reach) & (depth[lane] < depth_before[lane]);
+      is_free[lane] = matters ? -1 : 0;
+    }
+  }
+  /// Takes the points within the enlarged sphere of atom b.
+  ESPDIFF_INLINE void take(const ProbeAtomsView& atoms, std::uint32_t b) {
+    const Vec3f centre = atoms.centre(b);
+    const float square = atoms.radius[b] * atoms.radius[b] * kNotQuite;
+#pragma omp simd
+    for (int lane = 0; lane < kRowLanes; ++lane) {
+      const float covered = square_of(x[lane] - centre.x, y[lane] - centre.y, z[lane] - centre.z);
+      is_free[lane] = covered < square ? 0 : is_free[lane];
+    }
+  }
+  ESPDIFF_INLINE bool any_free() const {
+    int any = 0;
+#pragma omp simd reduction(| : any)
+    for (int lane = 0; lane < kRowLanes; ++lane) any |= is_free[lane];
+    return any != 0;
+  }
+};
+
 /// Points that a probe covers while it touches one atom.
 ESPDIFF_INLINE void reach_faces(const PlaneFill& in, int k) {
-  const AtomCellsView& cells = in.shape.atoms.cells;
-  const float z = in.lattice.coordinate(2, k), probe = in.shape.probe;
+  const CubicLattice lattice = in.lattice;
+  const ProbeAtomsView atoms = in.shape.atoms;
+  const float z = lattice.coordinate(2, k);
+  const int n = std::min(kRowLanes, lattice.size[0]);
+  float* const plane = in.depths + lattice.index(0, 0, k);
   for (std::uint32_t a = 0; a < in.n_atoms; ++a) {
-    const float radius = in.shape.atoms.radius[a], x = cells.x[a];
-    if (in.shape.atoms.exposed[a] == 0 || fabsf(cells.z[a] - z) >= radius) continue;
-    std::uint32_t likely = in.shape.atoms.first[a];
-    visit_disc(in.lattice, k, in.shape.atoms.centre(a), radius, [&](int j, int i0, int i1, float dy, float dz) {
-      float* const row = in.depths + in.lattice.index(0, j, k);
-      for (int i = i0; i < i1; ++i) {
-        const Vec3f p = in.lattice.point(i, j, k);
-        const float d = sqrtf(square_of(p.x - x, dy, dz)), by_atom = radius - d;
-        if (!(by_atom > 0.0F && by_atom < in.shape.reach)) continue;
-        if (by_atom - probe < row[i] && is_reached_on(in.shape, a, p, d, likely)) row[i] = by_atom - probe;
+    const float radius = atoms.radius[a];
+    if (atoms.exposed[a] == 0 || fabsf(atoms.cells.z[a] - z) >= radius) continue;
+    const Vec3f centre = atoms.centre(a);
+    const std::uint32_t begin = atoms.first[a], end = atoms.first[a + 1];
+    std::uint32_t likely = begin;  // the neighbour that took points of the row before
+    const auto of_row = [&](int first, std::size_t index, float dy, float dz) ESPDIFF_INLINE_LAMBDA {
+      float* const row = plane + index;
+      ProjectedPoints points(in.shape, lattice, centre, radius, first, dy, dz, row, n);
+      if (!points.any_free()) return;
+      if (begin < end) {
+        points.take(atoms, atoms.neighbour[likely]);
+        for (std::uint32_t b = begin; b < end; ++b) {
+          if (!points.any_free()) return;
+          likely = b;
+          points.take(atoms, atoms.neighbour[b]);
+        }
       }
-    });
+      for (int lane = 0; lane < n; ++lane) row[lane] = points.is_free[lane] != 0 ? points.depth[lane] : row[lane];
+    };
+    visit_disc(
+        lattice, k, centre, radius, [](int) {}, of_row);
   }
 }
 
