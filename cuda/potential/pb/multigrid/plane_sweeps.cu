@@ -35,8 +35,8 @@ Part part_of(int first, int last, int range, int n) {
   return {at(range), at(range + 1)};
 }
 
-/// Points of a plane's strip. A pass holds up to 25 planes of them, 5 MB: larger planes are swept strip by strip.
-constexpr std::size_t kStripPoints = 49152;
+/// Points of a plane's strip. A pass holds up to 25 planes of them, 2 MB: larger planes are swept strip by strip.
+constexpr std::size_t kStripPoints = 20480;
 constexpr int kFewestRows = 8;  // of a strip: neighbouring rows are computed again
 
 /// Strips of the rows [first, last) of planes, the same at any number of threads.
