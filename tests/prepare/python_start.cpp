@@ -57,6 +57,36 @@ TEST_CASE("words_to_start: packages that a program of Python does not use are no
   CHECK(printed(place).second == folder.file("a.cfg") + "\n");
 }
 
+TEST_CASE("words_to_start: norms and products of vectors have NumPy's bits, and its errors") {
+  const ScratchFolder folder;
+  folder.write("pdb2pqr.py", "");
+  const std::string program = folder.write("a program", R"(#!/usr/bin/python3
+import random, sys
+import pdb2pqr
+try:
+    import numpy as np
+except ImportError:
+    sys.exit("no NumPy")
+random.seed(5)
+for i in range(2000):
+    a, b = (np.array([random.gauss(0, 10 ** random.randint(-9, 9)) for _ in range(3)]) for _ in range(2))
+    print(np.linalg.norm(a).hex(), [x.hex() for x in np.cross(a, b)], type(np.linalg.norm(a - b)).__name__)
+whole, flat = np.arange(3), np.array([1.0, 2.0])
+for of in (whole, flat, np.eye(3), [3, 4], np.array([1e200, 1, 1]), np.array([np.nan, 1, 1]), np.array([])):
+    print(np.linalg.norm(of), np.linalg.norm(of, 1), np.linalg.norm(of, axis=-1))
+print(np.cross(whole, whole[::-1]), np.cross(flat, flat[::-1]), np.cross(np.eye(3), whole))
+for call in (lambda: np.cross([1.0], [2.0]), lambda: np.linalg.norm(flat, 7, 9), lambda: np.cross(np.eye(4), flat)):
+    try:
+        print(call())
+    except Exception as error:
+        print(type(error).__name__, error)
+)");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::string by_itself = printed_by({program});
+  CHECK(by_itself.size() > 100000);
+  CHECK(by_itself == printed_by(words_to_start(program)));
+}
+
 TEST_CASE("words_to_start: other programs run as they are") {
   const ScratchFolder folder;
   for (const char* content : {"#!/bin/sh\necho it\n",

@@ -82,7 +82,8 @@ constexpr int kRowLanes = 16;
 template <typename OfStretch, typename OfRow>
 ESPDIFF_INLINE void visit_disc(const CubicLattice& lattice, int k, Vec3f centre, float radius, OfStretch of_stretch,
                                OfRow of_row) {
-  const float dz = lattice.coordinate(2, k) - centre.z, reach = radius * radius - dz * dz, inverse = 1 / lattice.spacing;
+  const float dz = lattice.coordinate(2, k) - centre.z, reach = radius * radius - dz * dz,
+              inverse = 1 / lattice.spacing;
   if (!(reach > 0)) return;
   const float disc = sqrtf(reach);
   const auto below = [=](int axis) {
@@ -96,8 +97,7 @@ ESPDIFF_INLINE void visit_disc(const CubicLattice& lattice, int k, Vec3f centre,
   for (int i = below(0); i <= i1; i += kRowLanes) {
     const int first = std::min(i, last);
     of_stretch(first);
-    for (int j = j0; j <= j1; ++j)
-      of_row(first, lattice.index(first, j, 0), lattice.coordinate(1, j) - centre.y, dz);
+    for (int j = j0; j <= j1; ++j) of_row(first, lattice.index(first, j, 0), lattice.coordinate(1, j) - centre.y, dz);
   }
 }
 

@@ -19,7 +19,8 @@ ESPDIFF_MULTIVERSION void usual_faces(const std::uint8_t* codes, float solvent, 
   }
 }
 
-/// The diagonal of the points from `first` to before `last`: k and the six faces, in the order of add_faces_to_diagonal().
+/// The diagonal of the points from `first` to before `last`: k and the six faces, in the order of
+/// add_faces_to_diagonal().
 ESPDIFF_MULTIVERSION void diagonal_of(const std::uint8_t* codes, float ions, const OperatorRow& row, float* out) {
   const int first = row.first, last = row.last;
   const float* const ex = row.ex;

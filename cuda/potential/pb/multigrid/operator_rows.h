@@ -18,11 +18,11 @@ struct OperatorRow {
   const float* ey;
   const float* ey_before;  ///< of the row before, y - 1
   const float* ez;
-  const float* ez_below;         ///< of the row below, z - 1
-  const float* diagonal;         ///< of the inner points
-  const float* plain_diagonal;   ///< of those at plain ends
-  float plain;                   ///< the dielectric of the faces there
-  int first, last, end;          ///< the inner points between the plain ends, and the row's last point
+  const float* ez_below;        ///< of the row below, z - 1
+  const float* diagonal;        ///< of the inner points
+  const float* plain_diagonal;  ///< of those at plain ends
+  float plain;                  ///< the dielectric of the faces there
+  int first, last, end;         ///< the inner points between the plain ends, and the row's last point
 };
 
 /// Rows [first, last) of a plane, all of them inner ones.

@@ -24,23 +24,21 @@ struct CodedPoints {
   static constexpr unsigned kListed = 16;
 
   /// @param p the first one's index; of `n` points, others get the code given
-  ESPDIFF_INLINE CodedPoints(const CoefficientArrays<const float>& in, std::size_t p, std::uint32_t n, unsigned beyond) {
-    const float* const ex = in.ex + p;
-    const float* const ey = in.ey + p;
-    const float* const ez = in.ez + p;
-    const float* const k = in.k + p;
-    const float solute = in.usual.solute, solvent = in.usual.solvent;
-    const auto code_of = [=] ESPDIFF_HD(std::uint32_t i) ESPDIFF_INLINE_LAMBDA {
-      const int x = ex[i] == solute, y = ey[i] == solute, z = ez[i] == solute, ions = k[i] != 0.0F;
-      const int listed = ((ex[i] != solvent) & ~x) | ((ey[i] != solvent) & ~y) | ((ez[i] != solvent) & ~z);
-      return static_cast<std::uint8_t>(x | y << 1 | z << 2 | ions << 3 | listed << 4);
-    };
+  ESPDIFF_INLINE CodedPoints(const CoefficientArrays<const float>& of, std::size_t p, std::uint32_t n,
+                             unsigned beyond) {
+    const CoefficientArrays<const float> in = of;  // a copy, which the codes cannot change
     if (n >= CodeWord::kPoints) {
-      for (std::uint32_t i = 0; i < CodeWord::kPoints; ++i) codes[i] = code_of(i);
+      for (std::uint32_t i = 0; i < CodeWord::kPoints; ++i) codes[i] = code_at(in, p + i);
     } else {
-      for (std::uint32_t i = 0; i < n; ++i) codes[i] = code_of(i);
+      for (std::uint32_t i = 0; i < n; ++i) codes[i] = code_at(in, p + i);
       for (std::uint32_t i = n; i < CodeWord::kPoints; ++i) codes[i] = static_cast<std::uint8_t>(beyond);
     }
+  }
+  static ESPDIFF_INLINE std::uint8_t code_at(const CoefficientArrays<const float>& in, std::size_t p) {
+    const float solute = in.usual.solute, solvent = in.usual.solvent, ex = in.ex[p], ey = in.ey[p], ez = in.ez[p];
+    const int x = ex == solute, y = ey == solute, z = ez == solute, ions = in.k[p] != 0.0F;
+    const int listed = ((ex != solvent) & ~x) | ((ey != solvent) & ~y) | ((ez != solvent) & ~z);
+    return static_cast<std::uint8_t>(x | y << 1 | z << 2 | ions << 3 | listed << 4);
   }
   ESPDIFF_INLINE std::uint64_t half(unsigned h) const {
     std::uint64_t eight = 0;
@@ -95,9 +93,7 @@ ESPDIFF_INLINE void write(const CoefficientArrays<const float>& in, std::size_t 
     *words++ = points.word();
     for (std::uint32_t i = 0; i < CodeWord::kPoints; ++i) {
       if ((points.codes[i] & CodedPoints::kListed) == 0) continue;
-      visit_listed(in, row, first + i, [&](std::uint32_t place, float value) {
-        *listed++ = {place, value};
-      });
+      visit_listed(in, row, first + i, [&](std::uint32_t place, float value) { *listed++ = {place, value}; });
     }
   }
 }

@@ -48,7 +48,9 @@ struct CodeWord {
   static constexpr std::uint32_t kPoints = 16;
   static constexpr std::uint64_t kLow = 0x0F0F0F0F0F0F0F0FULL;
   static ESPDIFF_INLINE unsigned shift_of(std::uint32_t point) { return point % 8 * 8 + point % 16 / 8 * 4; }
-  ESPDIFF_INLINE unsigned of(std::uint32_t point) const { return static_cast<unsigned>(codes >> shift_of(point)) & 15U; }
+  ESPDIFF_INLINE unsigned of(std::uint32_t point) const {
+    return static_cast<unsigned>(codes >> shift_of(point)) & 15U;
+  }
 };
 
 /// Packed coefficients, for kernels. A row of points along x is numbered y + ny z.
@@ -59,8 +61,8 @@ struct PackedView {
   const std::uint32_t* first_face;  ///< [row + 1] of `listed`
   const ListedFace* listed;         ///< in the order of points, then of x, y, z
   /// [row] All six faces of points that are not mixed have the solvent's dielectric. More than half of the rows around
-  /// a protein have no mixed points, first = last = n - 1, and of the others about half of the points are not. Both ends
-  /// but the last are whole vectors. Of rows of the grid's border all inner points.
+  /// a protein have no mixed points, first = last = n - 1, and of the others about half of the points are not. Both
+  /// ends but the last are whole vectors. Of rows of the grid's border all inner points.
   const MixedPoints* mixed;
   UsualCoefficients usual;
 
@@ -80,7 +82,7 @@ class PackedOperator {
                                                     std::size_t points_per_listed = 8);
   /// Fills in the coefficients, bit by bit those that were packed; the diagonal holds k alone.
   void unpack(GridOperator& on_grid) const;
-  PackedView view() const { 
+  PackedView view() const {
     return {raw(own_), raw(first_word_), raw(words_), raw(first_face_), raw(listed_), raw(mixed_), usual_};
   }
 

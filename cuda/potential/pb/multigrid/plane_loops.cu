@@ -29,7 +29,8 @@ struct RowNeighbours {
   }
 };
 
-/// The same for the plain ends of a row, whose faces all have one dielectric: the same products, without reading it for each.
+/// The same for the plain ends of a row, whose faces all have one dielectric: the same products, without reading it for
+/// each.
 struct PlainNeighbours {
   float e;
   const float *below, *here, *above;
@@ -46,8 +47,7 @@ struct PlainNeighbours {
   }
 };
 
-ESPDIFF_INLINE void start(const float* diagonal, int first, int last, int parity, const float* b,
-                          float* x) {
+ESPDIFF_INLINE void start(const float* diagonal, int first, int last, int parity, const float* b, float* x) {
 #pragma GCC ivdep
   for (int i = first; i < last; ++i) {
     const float all = b[i] / diagonal[i];
@@ -62,8 +62,8 @@ ESPDIFF_MULTIVERSION void start_row(const OperatorRow& a, int parity, const floa
 }
 
 template <typename Neighbours>
-ESPDIFF_INLINE void sweep(const Neighbours& of, const float* diagonal, int first, int last, int parity,
-                          int colour, const float* b, const float* here, float* out) {
+ESPDIFF_INLINE void sweep(const Neighbours& of, const float* diagonal, int first, int last, int parity, int colour,
+                          const float* b, const float* here, float* out) {
   const Neighbours neighbours = of;
 #pragma GCC ivdep
   for (int i = first; i < last; ++i) {
@@ -99,8 +99,8 @@ ESPDIFF_MULTIVERSION void residual_row(const OperatorRow& a, std::size_t nx, int
 }
 
 template <typename Neighbours>
-ESPDIFF_INLINE void multiply(const Neighbours& of, const float* diagonal, int first, int last,
-                             const float* here, float* y) {
+ESPDIFF_INLINE void multiply(const Neighbours& of, const float* diagonal, int first, int last, const float* here,
+                             float* y) {
   const Neighbours neighbours = of;
 #pragma GCC ivdep
   for (int i = first; i < last; ++i)
