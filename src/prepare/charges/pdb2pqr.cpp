@@ -33,6 +33,7 @@
 #include "prepare/charges/modified_residues.h"
 #include "prepare/charges/python_start.h"
 #include "prepare/charges/separate_atoms.h"
+#include "prepare/closed_chains.h"
 
 namespace espdiff {
 
@@ -121,14 +122,11 @@ bool has_kind(const Molecule& molecule, ResidueKind kind) {
 /// The molecule followed by the groups beside its chains that were left out of it, without those of a residue that it
 /// has a part of, and without hydrogens, which PROPKA does not look at.
 Molecule with_left_out_groups(const Molecule& molecule) {
-  const auto key = [](const Residue& residue) {
-    return std::tuple(residue.chain, residue.number, residue.insertion_code);
-  };
-  std::set<std::tuple<std::string, std::int32_t, char>> own;
-  for (const Residue& residue : molecule.residues) own.insert(key(residue));
+  std::set<ResidueKey> own;
+  for (const Residue& residue : molecule.residues) own.insert(key_of(residue));
   Molecule groups, whole = molecule;
   for (const LeftOutResidue& left : molecule.left_out) {
-    if (own.count(key(left.residue)) > 0) continue;
+    if (own.count(key_of(left.residue)) > 0) continue;
     groups.residues.push_back(left.residue);
     for (std::size_t i = 0; i < left.atoms.size(); ++i) {
       if (left.atoms[i].element == "H" || left.atoms[i].element == "D") continue;
@@ -370,6 +368,23 @@ class Run {
 
   /// @param ligand content of a MOL2 file; may be empty
   Molecule operator()(const Molecule& molecule, const std::vector<std::string>& states, const std::string& ligand) {
+    const Molecule prepared = run_once(molecule, states, ligand);
+    const std::vector<ClosedChain> closed = closed_chains(molecule);
+    if (closed.empty()) return prepared;
+    const std::vector<std::size_t> order = from_the_middle(closed, molecule.residues.size());
+    std::vector<std::string> states_in_order;
+    if (!states.empty()) {
+      for (const std::size_t r : order) states_in_order.push_back(states[r]);
+    }
+    return without_ends(prepared, run_once(in_order(molecule, order), states_in_order, ligand), molecule, closed);
+  }
+  /// The runs that follow give residues their usual states.
+  void drop_propka(const std::string& force_field) { words_ = arguments(options_, force_field, false); }
+  bool all_from_cache() const { return all_from_cache_; }
+  const std::string& version() const { return version_; }
+
+ private:
+  Molecule run_once(const Molecule& molecule, const std::vector<std::string>& states, const std::string& ligand) {
     const Molecule whole = with_left_out_groups(molecule);
     const Renumbering renumbering(whole);
     const std::string pdb = pdb_text(whole, renumbering, states);
@@ -386,12 +401,7 @@ class Run {
     version_ = output->substr(begin, output->find('\n') - begin);
     return read_output(*output, molecule, renumbering);
   }
-  /// The runs that follow give residues their usual states.
-  void drop_propka(const std::string& force_field) { words_ = arguments(options_, force_field, false); }
-  bool all_from_cache() const { return all_from_cache_; }
-  const std::string& version() const { return version_; }
 
- private:
   std::string program_;
   const ChargeOptions& options_;
   std::vector<std::string> words_;
@@ -573,6 +583,10 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
     done.propka = false;
     done.notes.emplace_back("no PROPKA, which cannot use so short a chain: residues have their usual states at pH 7");
     prepared.molecule = run_with_ligands(run, given, kept_states, ligands);
+  }
+  for (const ClosedChain& chain : closed_chains(given)) {
+    const std::string& name = given.residues[chain.front()].chain;
+    done.notes.push_back((name.empty() ? "the chain" : "chain " + name) + " is closed, and gets no charged ends");
   }
   restore_residues(prepared.molecule, before, sources, groups.modified);
   charge_caps(prepared.molecule, before, sources, groups.modified, done.force_field);

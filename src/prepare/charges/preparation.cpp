@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "align/protonation.h"
 #include "align/residue_charges.h"
@@ -16,10 +15,6 @@
 
 namespace espdiff {
 namespace {
-
-using ResidueKey = std::tuple<std::string, std::int32_t, char>;
-
-ResidueKey key_of(const Residue& residue) { return {residue.chain, residue.number, residue.insertion_code}; }
 
 bool is_hydrogen(const Atom& atom) { return atom.element == "H" || atom.element == "D"; }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,10 @@
 #include "prepare/charges/groups.h"
 
 namespace espdiff {
+
+/// What of a residue PDB2PQR leaves as it was.
+using ResidueKey = std::tuple<std::string, std::int32_t, char>;
+inline ResidueKey key_of(const Residue& residue) { return {residue.chain, residue.number, residue.insertion_code}; }
 
 /// Residues that get no charge. The first one is named, so that who knows the file can add the line.
 struct UnchargedError : InputError {
