@@ -51,8 +51,8 @@ int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line, co
     const espdiff::Error ours = espdiff::translated(error);
     const int status = fail(espdiff::cli::spelled(ours.message()).c_str(), ours.exit_status());
     const espdiff::NextCommand& next = ours.message().next();
-    if (!next.empty())
-      std::fprintf(stderr, "next: %s\n", espdiff::printable(espdiff::cli::next_command(words, next)).c_str());
+    const std::string line = next.empty() ? "" : espdiff::cli::next_command(words, next);
+    if (!line.empty()) std::fprintf(stderr, "next: %s\n", espdiff::printable(line).c_str());
     return status;
   } catch (...) {
     return fail("internal error: an exception of unknown type; please report it with the command", 1);

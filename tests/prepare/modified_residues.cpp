@@ -8,6 +8,7 @@
 
 #include "align/residue_names.h"
 #include "base/molecule/input_options.h"
+#include "base/molecule/residue_label.h"
 #include "io/molecules/select_atoms.h"
 #include "io/structures/structure_file.h"
 #include "prepare/charges/open_babel.h"
@@ -214,6 +215,34 @@ TEST_CASE("a nucleotide that no force field has gets charges within its chain; b
   ChargeOptions options;
   options.use_cache = false;
   const Prepared usual = prepare_molecule(dna, options, {}, Progress());
+  {
+    // A triphosphate that begins a chain has no atom P, and the nucleotide behind it a phosphate that is no end.
+    Molecule begun = dna;
+    begun.residues[0].name = "XTP";
+    const auto of_residues = atoms_of_residues(begun);
+    REQUIRE(residue_kinds(begun, of_residues)[0] == ResidueKind::kOther);
+    CHECK(is_in_nucleic_chain(begun, 0, of_residues));
+    const std::string first = espdiff::residue_label(begun.residues[0]);
+    const Prepared triphosphate = prepare_molecule(begun, options, {}, Progress());
+    REQUIRE(triphosphate.preparation.groups.size() == 1);
+    CHECK(triphosphate.preparation.groups[0] ==
+          first + ": +0 e, in its chain, by Open Babel (Gasteiger's charges, pH 7)");
+    CHECK(net_charge(triphosphate.molecule) == doctest::Approx(net_charge(usual.molecule)).epsilon(1e-3));
+    // Of a torn one there is too little to place the rest by.
+    Molecule torn = dna;
+    std::vector<bool> keep;
+    for (const Atom& atom : torn.atoms) {
+      const std::string name = normalized_atom_name(atom.name);
+      keep.push_back(atom.residue != 0 || name == "O5'" || name == "C5'");
+    }
+    torn = keep_atoms(torn, keep);
+    CHECK(nucleotide_source(torn, 0, atoms_of_residues(torn), true) == GroupSource::kTorn);
+    CHECK(nucleotide_source(dna, 0, atoms_of_residues(dna), true) == GroupSource::kNone);
+    const Prepared rest = prepare_molecule(torn, options, {}, Progress());
+    REQUIRE(rest.molecule.left_out.size() == 1);
+    CHECK(rest.molecule.left_out[0].residue.number == dna.residues[0].number);
+    CHECK(net_charge(rest.molecule) == doctest::Approx(net_charge(usual.molecule) + 1).epsilon(1e-3));
+  }
   dna.residues[4].name = "5XG";
   const auto atoms = atoms_of_residues(dna);
   CHECK(nucleotide_source(dna, 4, atoms, true) == GroupSource::kModified);

@@ -34,6 +34,28 @@ TypedWords with_values(const TypedWords& words, const std::string& option,
   return kept;
 }
 
+/// "(SO4,GOL)" of "(SO4)" and "(GOL)"; nothing where one is not a list of names.
+std::optional<std::string> joined_names(const std::string& a, const std::string& b) {
+  const auto is_list = [](const std::string& text) {
+    return text.size() > 2 && text.front() == '(' && text.find_first_of("()!", 1) == text.size() - 1;
+  };
+  if (!is_list(a) || !is_list(b)) return std::nullopt;
+  return a.substr(0, a.size() - 1) + "," + b.substr(1);
+}
+
+/// An option that leaves out more than what was typed; nothing where one value cannot say both.
+std::optional<NamedOption> with_typed(const TypedWords& words, NamedOption option) {
+  if (option.name != "leave-out") return option;
+  std::optional<std::string> joined = option.value;
+  with_values(words, option.name, [&](const std::string& typed) {
+    if (joined) joined = joined_names(typed, *joined);
+    return std::optional(typed);
+  });
+  if (!joined) return std::nullopt;
+  option.value = *joined;
+  return option;
+}
+
 TypedWords without(const TypedWords& words, const NamedOption& option) {
   if (!option.is_switch) return with_values(words, option.name, [](const std::string&) { return std::nullopt; });
   TypedWords kept;
@@ -124,7 +146,13 @@ std::string next_command(const TypedWords& words, const NextCommand& next) {
   const bool gives_up = std::any_of(next.options.begin(), next.options.end(), [](const NamedOption& option) {
     return option.name == "potential" && option.value == "none";
   });
-  return next.before + as_typed(with_options(gives_up ? without_potential(words) : words, next.options));
+  std::vector<NamedOption> options;
+  for (const NamedOption& option : next.options) {
+    const std::optional<NamedOption> whole = with_typed(words, option);
+    if (!whole) return {};
+    options.push_back(*whole);
+  }
+  return next.before + as_typed(with_options(gives_up ? without_potential(words) : words, options));
 }
 
 }  // namespace espdiff::cli

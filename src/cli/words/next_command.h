@@ -25,7 +25,8 @@ TypedWords exchanged(TypedWords words, const std::string& a, const std::string& 
 std::string as_typed(const TypedWords& words);
 
 /// What NextCommand::before says, and the words: "apt install openbabel && espdiff a.pdb b.pdb --ligands auto". Where
-/// it gives up the potential, what needs one goes, too.
+/// it gives up the potential, what needs one goes, too; names that are left out are added to those that were typed.
+/// Empty where what was typed to be left out is no list of names.
 std::string next_command(const TypedWords& words, const NextCommand& next);
 
 }  // namespace espdiff::cli

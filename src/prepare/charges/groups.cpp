@@ -7,6 +7,7 @@
 #include <set>
 #include <string_view>
 
+#include "align/chain_links.h"
 #include "align/residue_charges.h"
 #include "align/residue_names.h"
 #include "base/formatted.h"
@@ -203,7 +204,7 @@ bool has_haem_names(const Molecule& molecule, const std::vector<std::size_t>& at
 void keep_torn_chains(const std::vector<ResidueKind>& kinds, std::vector<GroupSource>& sources) {
   constexpr std::ptrdiff_t kLeastWhole = 10;
   const auto n_torn = std::count(sources.begin(), sources.end(), GroupSource::kTorn);
-  if (n_torn * kLeastWhole <= std::count(kinds.begin(), kinds.end(), ResidueKind::kAminoAcid)) return;
+  if (n_torn * kLeastWhole <= std::count_if(kinds.begin(), kinds.end(), is_polymer)) return;
   std::replace(sources.begin(), sources.end(), GroupSource::kTorn, GroupSource::kNone);
 }
 
@@ -230,7 +231,9 @@ std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vect
     } else if (is_haem(name) && has_haem_names(molecule, atoms[r])) {
       sources[r] = GroupSource::kHaem;
     } else if (has_open_babel) {
-      sources[r] = is_bound_as_cap(molecule, r, atoms) ? GroupSource::kCap : GroupSource::kOpenBabel;
+      sources[r] = is_bound_as_cap(molecule, r, atoms)       ? GroupSource::kCap
+                   : is_in_nucleic_chain(molecule, r, atoms) ? GroupSource::kModified
+                                                             : GroupSource::kOpenBabel;
     }
   }
   keep_torn_chains(kinds, sources);

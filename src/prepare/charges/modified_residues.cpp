@@ -104,7 +104,8 @@ void name_nucleotides(Molecule& molecule, Preparation& preparation) {
     for (const auto& [charmm, usual] : kNames) {
       if (name == charmm && kinds[r] == ResidueKind::kNucleotide) name = usual;
     }
-    if ((name == "A" || name == "C" || name == "G" || name == "T") && !atom_named(molecule, atoms[r], "O2'"))
+    if ((name == "A" || name == "C" || name == "G" || name == "T") && atom_named(molecule, atoms[r], "C1'") &&
+        !atom_named(molecule, atoms[r], "O2'"))
       name.insert(0, "D");
     rename_residue(molecule.residues[r], name, preparation);
   }
@@ -260,6 +261,14 @@ void add_phosphate(Molecule& residue, const Molecule& before, const Phosphorylat
   }
 }
 
+/// What the net charge of a residue is beyond a whole number. AMBER's nucleotides at both ends of a chain have -0.3079
+/// and -0.6921 e, together a whole number, so what stands in for one needs the same part.
+double beyond_whole(const Molecule& residue) {
+  double total = 0;
+  for (const float charge : residue.charges) total += static_cast<double>(charge);
+  return total - std::round(total);
+}
+
 /// A nucleotide of which a modified one has the ring: guanine or uracil, which have fewest atoms beside it to lose.
 std::string parent_nucleotide(const Molecule& molecule, const std::vector<std::size_t>& atoms) {
   const std::string base = atom_named(molecule, atoms, "N9") ? "G" : "U";
@@ -332,10 +341,21 @@ GroupSource amino_acid_source(const Molecule& molecule, std::size_t residue, con
 
 GroupSource nucleotide_source(const Molecule& molecule, std::size_t residue,
                               const std::vector<std::vector<std::size_t>>& atoms, bool ligands_auto) {
-  if (residue_letter(molecule.residues[residue].name) != '?' || !ligands_auto) return GroupSource::kNone;
-  const bool in_chain =
-      bound_atom(molecule, residue, atoms, "P", "O3'") || bound_atom(molecule, residue, atoms, "O3'", "P");
-  return in_chain ? GroupSource::kModified : GroupSource::kOpenBabel;
+  const auto is_of_sugar = [&](std::size_t i) {
+    static const std::set<std::string> sugar = {"C1'", "C2'", "C3'", "C4'", "O4'", "C5'", "O5'", "O3'"};
+    return sugar.count(normalized_atom_name(molecule.atoms[i].name)) > 0;
+  };
+  constexpr std::ptrdiff_t kFewestPlaced = 3;
+  const bool is_known = residue_letter(molecule.residues[residue].name) != '?';
+  if (is_known && std::count_if(atoms[residue].begin(), atoms[residue].end(), is_of_sugar) < kFewestPlaced)
+    return GroupSource::kTorn;
+  if (is_known || !ligands_auto) return GroupSource::kNone;
+  return is_in_nucleic_chain(molecule, residue, atoms) ? GroupSource::kModified : GroupSource::kOpenBabel;
+}
+
+bool is_in_nucleic_chain(const Molecule& molecule, std::size_t residue,
+                         const std::vector<std::vector<std::size_t>>& atoms) {
+  return bound_atom(molecule, residue, atoms, "P", "O3'") || bound_atom(molecule, residue, atoms, "O3'", "P");
 }
 
 Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, double ph, int& net_charge,
@@ -379,7 +399,9 @@ Molecule with_known_residues(const Molecule& molecule, const std::vector<GroupSo
   std::vector<bool> keep(molecule.size(), true);
   for (std::size_t r = 0; r < sources.size(); ++r) {
     if (sources[r] != GroupSource::kPhosphate && sources[r] != GroupSource::kModified) continue;
-    const bool is_modified = sources[r] == GroupSource::kModified, is_base = kinds[r] == ResidueKind::kNucleotide;
+    const bool is_modified = sources[r] == GroupSource::kModified,
+               is_base = kinds[r] == ResidueKind::kNucleotide ||
+                         (kinds[r] == ResidueKind::kOther && is_in_nucleic_chain(molecule, r, atoms));
     const std::set<std::string_view>& parent = is_base ? nucleotide : glycine;
     known.residues[r].name = !is_modified ? std::string(phosphorylated(molecule.residues[r].name)->parent)
                              : is_base    ? parent_nucleotide(molecule, atoms[r])
@@ -418,7 +440,9 @@ void restore_residues(Molecule& prepared, const Molecule& before, const std::vec
       add_phosphate(one, residue_alone(before, b, atoms_before[b]), *phosphorylated(before.residues[b].name));
     } else if (found != of_before.end()) {
       const std::size_t m = of_modified.at(found->first);
+      const double part = beyond_whole(one);
       one = residue_alone(modified, m, atoms_modified[m]);
+      for (float& charge : one.charges) charge += static_cast<float>(part / static_cast<double>(one.size()));
     }
     append_residue(restored, one);
   }

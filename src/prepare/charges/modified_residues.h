@@ -27,11 +27,16 @@ void rename_residues(Molecule& molecule, Preparation& preparation);
 GroupSource amino_acid_source(const Molecule& molecule, std::size_t residue, const std::vector<std::size_t>& atoms,
                               bool ligands_auto);
 
-/// Where the charges of a nucleotide come from: kNone for those that the force fields have; kModified for other names
-/// within a chain, kOpenBabel for those beside one (AMP, FMN), if ligands_auto.
+/// Where the charges of a nucleotide come from: kNone for those that the force fields have, kTorn where fewer than
+/// three atoms of their sugar are there; kModified for other names within a chain, kOpenBabel for those beside one
+/// (AMP, FMN), if ligands_auto.
 /// @param atoms [residue] from atoms_of_residues()
 GroupSource nucleotide_source(const Molecule& molecule, std::size_t residue,
                               const std::vector<std::vector<std::size_t>>& atoms, bool ligands_auto);
+
+/// Whether a residue's P is bound to an O3', or its O3' to a P, as that of a triphosphate (GTP) which begins a chain.
+bool is_in_nucleic_chain(const Molecule& molecule, std::size_t residue,
+                         const std::vector<std::vector<std::size_t>>& atoms);
 
 /// Whether PDB2PQR's force fields have an amino acid of this name; the names of ends (NALA) and of protonation states
 /// count.

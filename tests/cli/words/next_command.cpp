@@ -166,6 +166,18 @@ TEST_CASE("next: ligands of both files are named at once, and made by the comman
   CHECK(contains(read_file(folder.file("out.json")), "AP5 215 of chain A: -"));
 }
 
+TEST_CASE("next: what is left out is added to what was typed, or no command is given") {
+  using espdiff::NextCommand;
+  const NextCommand next{"", {{"leave-out", "(IRI)"}}};
+  CHECK(espdiff::cli::next_command({"prepare", "a.pdb"}, next) == "espdiff prepare a.pdb --leave-out '(IRI)'");
+  CHECK(espdiff::cli::next_command({"--leave-out", "(B1Z,CL)", "prepare", "a.pdb"}, next) ==
+        "espdiff prepare a.pdb --leave-out '(B1Z,CL,IRI)'");
+  CHECK(espdiff::cli::next_command({"prepare", "a.pdb", "--leave-out=(B1Z)"}, next) ==
+        "espdiff prepare a.pdb --leave-out '(B1Z,IRI)'");
+  for (const char* const other : {"//A", "(!HOH)", "//A;(B1Z)", "()"})
+    CHECK(espdiff::cli::next_command({"prepare", "a.pdb", "--leave-out", other}, next).empty());
+}
+
 TEST_CASE("next: a trajectory that only VMD's readers read is handed to Python, DCD is read") {
   const ScratchFolder folder;
   const std::string run = "trajectory " + folder.write("a.pqr", row_of_atoms(12)) + " " +
