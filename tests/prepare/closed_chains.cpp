@@ -1,5 +1,5 @@
 // Chains without ends: found by their bonds, and charged alike all around.
-#include "prepare/closed_chains.h"
+#include "prepare/charges/closed_chains.h"
 
 #include <doctest/doctest.h>
 

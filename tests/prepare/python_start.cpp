@@ -1,5 +1,5 @@
 // A program of Python starts as it does by itself, without the packages that it does not use; another one as it is.
-#include "prepare/charges/python_start.h"
+#include "system/python_start.h"
 
 #include <doctest/doctest.h>
 

@@ -29,11 +29,11 @@
 #include "io/structures/structure_file.h"
 #include "prepare/charges/cache.h"
 #include "prepare/charges/caps.h"
+#include "prepare/charges/closed_chains.h"
 #include "prepare/charges/ligand.h"
 #include "prepare/charges/modified_residues.h"
-#include "prepare/charges/python_start.h"
 #include "prepare/charges/separate_atoms.h"
-#include "prepare/closed_chains.h"
+#include "system/python_start.h"
 
 namespace espdiff {
 

@@ -1,5 +1,5 @@
 // closed_chains.cpp: rings of residues by their bonds.
-#include "prepare/closed_chains.h"
+#include "prepare/charges/closed_chains.h"
 
 #include <algorithm>
 #include <map>

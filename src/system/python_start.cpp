@@ -1,5 +1,5 @@
 // python_start.cpp: the interpreter by the program's first line, and what it runs before the program.
-#include "prepare/charges/python_start.h"
+#include "system/python_start.h"
 
 #include <algorithm>
 #include <fstream>
