@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "align/protonation.h"
@@ -418,14 +417,13 @@ Molecule with_known_residues(const Molecule& molecule, const std::vector<GroupSo
 
 void restore_residues(Molecule& prepared, const Molecule& before, const std::vector<GroupSource>& sources,
                       const Molecule& modified) {
-  const auto key = [](const Residue& r) { return std::tuple(r.chain, r.number, r.insertion_code); };
-  std::map<decltype(key(Residue())), std::size_t> of_before, of_modified;
+  std::map<ResidueKey, std::size_t> of_before, of_modified;
   for (std::size_t r = 0; r < sources.size(); ++r) {
     if (sources[r] == GroupSource::kPhosphate || sources[r] == GroupSource::kModified)
-      of_before[key(before.residues[r])] = r;
+      of_before[key_of(before.residues[r])] = r;
   }
   if (of_before.empty()) return;
-  for (std::size_t r = 0; r < modified.residues.size(); ++r) of_modified[key(modified.residues[r])] = r;
+  for (std::size_t r = 0; r < modified.residues.size(); ++r) of_modified[key_of(modified.residues[r])] = r;
   const auto atoms = atoms_of_residues(prepared), atoms_before = atoms_of_residues(before),
              atoms_modified = atoms_of_residues(modified);
   Molecule restored;
@@ -434,7 +432,7 @@ void restore_residues(Molecule& prepared, const Molecule& before, const std::vec
   restored.left_out = prepared.left_out;
   for (std::size_t r = 0; r < prepared.residues.size(); ++r) {
     Molecule one = residue_alone(prepared, r, atoms[r]);
-    const auto found = of_before.find(key(prepared.residues[r]));
+    const auto found = of_before.find(key_of(prepared.residues[r]));
     if (found != of_before.end() && sources[found->second] == GroupSource::kPhosphate) {
       const std::size_t b = found->second;
       add_phosphate(one, residue_alone(before, b, atoms_before[b]), *phosphorylated(before.residues[b].name));
