@@ -27,23 +27,49 @@ double fastest(Work work) {
   return least;
 }
 
-using Lanes = float __attribute__((vector_size(64)));
-// Independent chains hide the instructions' latency; more would not fit into the registers.
-constexpr int kChains = 7, kSteps = 2000000;
+constexpr int kSteps = 2000000;
+// Independent chains hide the instructions' latency of eight cycles; more would not fit into sixteen registers.
+constexpr int kChains = 12;
 
-#if defined(__x86_64__)
-__attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#endif
-float
-multiply_and_add(float factor, float summand) {
+using FourLanes = float __attribute__((vector_size(16)));
+using EightLanes = float __attribute__((vector_size(32)));
+using SixteenLanes = float __attribute__((vector_size(64)));
+
+/// Chains of a multiplication and an addition on vectors.
+template <typename Lanes>
+[[gnu::always_inline]] inline float multiply_and_add(float factor, float summand) {
   Lanes chain[kChains];
   for (int c = 0; c < kChains; ++c) chain[c] = Lanes{} + static_cast<float>(c);
   for (int step = 0; step < kSteps; ++step) {
     for (int c = 0; c < kChains; ++c) chain[c] = chain[c] * factor + summand;
   }
   float sum = 0;
-  for (int c = 0; c < kChains; ++c) sum += chain[c][0] + chain[c][15];
+  for (int c = 0; c < kChains; ++c) sum += chain[c][0] + chain[c][1];
   return sum;
+}
+
+struct Chains {
+  int n_lanes;
+  float (*run)(float factor, float summand);
+};
+
+float chains_of_4(float factor, float summand) { return multiply_and_add<FourLanes>(factor, summand); }
+#if defined(__x86_64__)
+[[gnu::target("arch=x86-64-v3")]] float chains_of_8(float factor, float summand) {
+  return multiply_and_add<EightLanes>(factor, summand);
+}
+[[gnu::target("arch=x86-64-v4")]] float chains_of_16(float factor, float summand) {
+  return multiply_and_add<SixteenLanes>(factor, summand);
+}
+#endif
+
+/// On the widest vectors of this processor.
+Chains widest() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("x86-64-v4") != 0) return {16, chains_of_16};
+  if (__builtin_cpu_supports("x86-64-v3") != 0) return {8, chains_of_8};
+#endif
+  return {4, chains_of_4};
 }
 
 }  // namespace
@@ -65,15 +91,15 @@ MachinePeak cpu_peak(int n_threads) {
     for (long i = 0; i < n; ++i) to[i] = from[i] + 3.0F * other[i];
   });
   std::vector<float> results(static_cast<std::size_t>(n_threads));
+  const Chains chains = widest();
   const double arithmetic = fastest([&] {
 #pragma omp parallel
-    results[static_cast<std::size_t>(omp_get_thread_num())] = multiply_and_add(0.999F, 0.5F);
+    results[static_cast<std::size_t>(omp_get_thread_num())] = chains.run(0.999F, 0.5F);
   });
   omp_set_num_threads(usual);
-  const double lanes = sizeof(Lanes) / sizeof(float);
   MachinePeak peak;
   peak.gigabytes_per_s = 12.0 * static_cast<double>(kElements) / triad * 1e-9;
-  peak.gigaoperations_per_s = 2.0 * lanes * kChains * kSteps * n_threads / arithmetic * 1e-9;
+  peak.gigaoperations_per_s = 2.0 * chains.n_lanes * kChains * kSteps * n_threads / arithmetic * 1e-9;
   return results[0] > -1e30F ? peak : MachinePeak{};
 }
 

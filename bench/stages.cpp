@@ -14,11 +14,13 @@
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
 #include "engine/morph_stage.h"
+#include "engine/poisson_boltzmann.h"
 #include "engine/potential_stage.h"
 #include "engine/surface_stage.h"
 #include "io/files/atomic_file.h"
 #include "machine_peak.h"
 #include "mapping/input.h"
+#include "mapping/map_by_morph.h"
 #include "options/options.h"
 #include "renumbered.h"
 #include "stage_inputs.h"
@@ -114,6 +116,43 @@ void project(StageTimer& timer, const StageInputs& in) {
              [&] { mesh = in.engine->project(in.source.raw, in.source.atoms, in.isovalue(), in.projection_limit()); });
   count_mesh(timer, in, mesh);
   count_fit(timer, in.engine->fit(mesh, in.source.atoms, in.isovalue()));
+  count_work(timer, espdiff_bench::project_work(in));
+}
+
+/// Straight paths to the displaced copy, without its regularization.
+void morph(StageTimer& timer, const StageInputs& in) {
+  std::vector<espdiff::MovingAtom> atoms(in.source.molecule.size());
+  for (std::size_t i = 0; i < atoms.size(); ++i) {
+    atoms[i].start = in.source.molecule.positions[i];
+    atoms[i].end = in.target.molecule.positions[i];
+    atoms[i].start_width = atoms[i].end_width = static_cast<double>(in.source.widths[i]);
+    atoms[i].pair = static_cast<std::int32_t>(i);
+  }
+  espdiff::MorphResult result;
+  timer.time(*in.engine, [&] {
+    result = in.engine->morph(in.start, atoms, in.source.atoms, in.target.atoms, espdiff::morph_options(in.options),
+                              "morph", kSilent);
+  });
+  count_mesh(timer, in, result.mapped);
+  timer.counters["morph_steps"] = result.report.steps;
+  timer.counters["mean_distance_A"] = in.engine->distances(result.mapped, in.target.surface, 1.0).mean;
+  count_fit(timer, in.engine->fit(result.mapped, in.target.atoms, in.isovalue()));
+  count_work(timer, espdiff_bench::morph_work(in, result.report.steps));
+}
+
+/// The molecule's potential with the usual spacing and border.
+void poisson_boltzmann(StageTimer& timer, const StageInputs& in) {
+  const espdiff::Molecule& m = in.source.molecule;
+  const espdiff::Lattice lattice =
+      espdiff::poisson_boltzmann_lattice(m.positions, m.radii, espdiff::kUsualPbSpacing_A, espdiff::kUsualPbPadding_A);
+  espdiff::PoissonBoltzmannReport report;
+  timer.time(*in.engine, [&] {
+    in.engine->poisson_boltzmann(m.positions, m.radii, m.charges, lattice, {}, {}, nullptr, kSilent, &report);
+  });
+  timer.counters["lattice_points"] = static_cast<double>(lattice.n_points());
+  timer.counters["cycles"] = report.cycles;
+  timer.counters["surface_error"] = report.surface_error;
+  count_work(timer, espdiff_bench::poisson_boltzmann_work(lattice.n_points(), report.cycles));
 }
 
 void density_field(StageTimer& timer, const StageInputs& in) {
@@ -186,6 +225,7 @@ void distances(StageTimer& timer, const StageInputs& in) {
   timer.counters["mean_distance_A"] = there.mean;
   timer.counters["mean_distance_back_A"] = back.mean;
   timer.counters["max_distance_back_A"] = back.max;
+  count_work(timer, espdiff_bench::distances_work(in));
 }
 
 void self_intersections(StageTimer& timer, const StageInputs& in) {
@@ -209,6 +249,7 @@ void sample_and_metrics(StageTimer& timer, const StageInputs& in) {
 
 void vertex_residues(StageTimer& timer, const StageInputs& in) {
   timer.time(*in.engine, [&] { in.engine->vertex_residues(in.start, in.source.atoms); });
+  count_work(timer, espdiff_bench::vertex_residues_work(in));
 }
 
 /// Everything from atoms and maps to metrics and certificate, with default options except the method.
@@ -255,6 +296,7 @@ std::vector<Stage> stages(double quicksurf_ms) {
       {"regularize_iteration",
        [](StageTimer& s, const StageInputs& in) {
          per_iteration(s, in, in.source.surface, in.own_field, in.options.regularize);
+         count_work(s, espdiff_bench::deform_iteration_work(in, false));
        },
        false, true},
       {"regularize", regularize, true},
@@ -286,6 +328,8 @@ std::vector<Stage> stages(double quicksurf_ms) {
        true},
       {"deform_distance_field", [](StageTimer& s, const StageInputs& in) { deform(s, in, in.target_distance_field); },
        true},
+      {"morph", morph, true},
+      {"poisson_boltzmann", poisson_boltzmann, true},
       {"fit", fit},
       {"distances", distances},
       {"self_intersections", self_intersections},

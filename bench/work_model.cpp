@@ -16,6 +16,8 @@ using espdiff::Vec3f;
 
 constexpr double kReachInWidths = 4.5;
 constexpr double kPoint = 4, kVector = 16, kIndex = 4, kTriangle = 12;  // bytes
+// Operations: the squared distance and an exponential of seventeen; sums of value and slope.
+constexpr double kGaussian = 9 + 17, kSlopes = 8;
 
 double n_points(const espdiff::GridPtr& grid, const StageInputs& in) {
   return static_cast<double>(in.engine->download(grid).values.size());
@@ -42,6 +44,31 @@ double n_points_touched(const StageInputs& in, int margin) {
     }
   }
   return static_cast<double>(std::count(touched.begin(), touched.end(), 1));
+}
+
+std::vector<Vec3f> centroids(const espdiff::Mesh& mesh) {
+  std::vector<Vec3f> points;
+  for (const espdiff::Triangle& triangle : mesh.triangles) {
+    const Vec3f& a = mesh.positions[triangle[0]];
+    points.push_back((1.0F / 3.0F) * (a + mesh.positions[triangle[1]] + mesh.positions[triangle[2]]));
+  }
+  return points;
+}
+
+/// Points and Gaussians in whose reach they are; 0 above 10,000 atoms.
+double n_pairs(const Side& side, const std::vector<Vec3f>& points) {
+  const std::size_t n_atoms = side.widths.size();
+  constexpr std::size_t kMostAtoms = 10000;
+  if (n_atoms > kMostAtoms) return 0;
+  double pairs = 0;
+  for (const Vec3f& point : points) {
+    for (std::size_t i = 0; i < n_atoms; ++i) {
+      const Vec3f d = point - static_cast<Vec3f>(side.molecule.positions[i]);
+      const float reach = static_cast<float>(kReachInWidths) * side.widths[i];
+      if (dot(d, d) < reach * reach) pairs += 1;
+    }
+  }
+  return pairs;
 }
 
 }  // namespace
@@ -79,22 +106,50 @@ Work deform_iteration_work(const StageInputs& in, bool tricubic) {
 }
 
 Work fit_work(const StageInputs& in) {
-  const std::size_t n_atoms = in.target.widths.size();
   const espdiff::Mesh mesh = in.engine->download(in.mapped);
-  constexpr std::size_t kMostAtoms = 10000;
-  if (n_atoms > kMostAtoms) return {};
-  double pairs = 0;
-  for (const espdiff::Triangle& triangle : mesh.triangles) {
-    const Vec3f& a = mesh.positions[triangle[0]];
-    const Vec3f centroid = (1.0F / 3.0F) * (a + mesh.positions[triangle[1]] + mesh.positions[triangle[2]]);
-    for (std::size_t i = 0; i < n_atoms; ++i) {
-      const Vec3f d = centroid - static_cast<Vec3f>(in.target.molecule.positions[i]);
-      const float reach = static_cast<float>(kReachInWidths) * in.target.widths[i];
-      if (dot(d, d) < reach * reach) pairs += 1;
-    }
+  const double n = static_cast<double>(mesh.triangles.size());
+  return {(kTriangle + 2 * kPoint) * n, (kGaussian + kSlopes) * n_pairs(in.target, centroids(mesh))};
+}
+
+Work project_work(const StageInputs& in) {
+  const std::vector<Vec3f> points = in.engine->download(in.source.raw).positions;
+  return {2 * kVector * static_cast<double>(points.size()), 2 * (kGaussian + kSlopes) * n_pairs(in.source, points)};
+}
+
+Work morph_work(const StageInputs& in, int n_steps) {
+  const std::vector<Vec3f> points = in.engine->download(in.start).positions;
+  // The sums of value, slopes and their change, and the atoms' velocity weighted by their Gaussians.
+  constexpr double kFlow = kSlopes + 2 + 6;
+  const double evaluation = 2 * (kGaussian + kSlopes) + kGaussian + kFlow;
+  return {2 * kVector * static_cast<double>(points.size()) * n_steps,
+          evaluation * n_pairs(in.source, points) * n_steps};
+}
+
+Work vertex_residues_work(const StageInputs& in) {
+  const std::vector<Vec3f> points = in.engine->download(in.start).positions;
+  return {(kVector + kIndex) * static_cast<double>(points.size()), kGaussian * n_pairs(in.source, points)};
+}
+
+Work distances_work(const StageInputs& in) {
+  constexpr double kPointToTriangle = 60;
+  double v = 0, t = 0;
+  for (const espdiff::MeshPtr& mesh : {in.mapped, in.target.surface}) {
+    v += static_cast<double>(in.engine->n_vertices(mesh));
+    t += static_cast<double>(in.engine->n_triangles(mesh));
   }
-  // The squared distance, an exponential of seventeen operations, and the sums of value and slope.
-  return {(kTriangle + 2 * kPoint) * static_cast<double>(mesh.triangles.size()), (9 + 17 + 8) * pairs};
+  return {kVector * v + kTriangle * t + kPoint * (v + t), kPointToTriangle * (v + t)};
+}
+
+Work poisson_boltzmann_work(std::size_t n_points, int n_cycles) {
+  // Read and written: solution, residual and direction; each way through the multigrid's finest level, the correction.
+  // Read besides: the residual each way, and a code of the operator's coefficients three times.
+  constexpr double kFinest = (3 + 2) * 2 * kPoint + 2 * kPoint + 3;
+  // An eighth of the points each, with a right-hand side of their own and three coefficients.
+  constexpr double kCoarser = (2 * 2 * kPoint + 2 * kPoint + 2 * 3 * kPoint) / 7;
+  // Product with the operator, two sweeps, residual, transfers to and from the coarser level, and the vectors' sums.
+  constexpr double kOperations = 13 + 2 * 14 + 14 + 4 + 4 + 8, kAllLevels = 8.0 / 7;
+  const double n = static_cast<double>(n_points) * n_cycles;
+  return {(kFinest + kCoarser) * n, kOperations * kAllLevels * n};
 }
 
 }  // namespace espdiff_bench

@@ -19,8 +19,18 @@ Work isosurface_work(const StageInputs& in);
 Work density_field_work(const StageInputs& in);
 /// One iteration on the regularized source in the target's field.
 Work deform_iteration_work(const StageInputs& in, bool tricubic);
-/// The density and its gradient at the mapped triangles' centroids; zero above 10,000 atoms, where counting the pairs
-/// would take too long.
+/// The density and its gradient at the mapped triangles' centroids. This and the next three: zero above 10,000 atoms,
+/// where counting the pairs would take too long.
 Work fit_work(const StageInputs& in);
+/// The same at the isosurface's vertices, twice: a step of Newton's method, and the look whether it has arrived.
+Work project_work(const StageInputs& in);
+/// Plain integration of the flow: every vertex in every step, its density as in project_work(), then its flow.
+Work morph_work(const StageInputs& in, int n_steps);
+/// The atom with the most density at each vertex.
+Work vertex_residues_work(const StageInputs& in);
+/// Both meshes in; from each corner and centroid to one triangle, both directions.
+Work distances_work(const StageInputs& in);
+/// One cycle of conjugate gradients with one of multigrid, for each fine point.
+Work poisson_boltzmann_work(std::size_t n_points, int n_cycles);
 
 }  // namespace espdiff_bench

@@ -8,7 +8,10 @@ A state is a file (PQR, PDB, mmCIF), a `State`, a Universe or AtomGroup of MDAna
 the command line with underscores; `help_options()` lists them.
 """
 
-from . import _errors
+from ._threads import brief_spins
+
+with brief_spins():  # loads the engine
+    from . import _errors
 from ._errors import *
 
 try:

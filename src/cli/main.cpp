@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "cli/command_line.h"
+#include "engine/compute_thread.h"
 #include "system/this_process.h"
 
 namespace {
@@ -21,9 +22,11 @@ bool asks_for_text(int argc, char** argv) {
 /// Restarts the program with settings that its libraries read before `main` only. A user's own settings are kept.
 void start_again_with_settings(int argc, char** argv) {
   if (asks_for_text(argc, argv)) return;
-  // OpenMP threads spin while they wait; on a busy machine that makes a run up to ten times as long.
-  bool is_new =
-      std::getenv("GOMP_SPINCOUNT") == nullptr && espdiff::set_environment_default("OMP_WAIT_POLICY", "passive");
+  bool is_new = false;
+  if (std::getenv("GOMP_SPINCOUNT") == nullptr && std::getenv("OMP_WAIT_POLICY") == nullptr) {
+    espdiff::set_environment_default("GOMP_SPINCOUNT", espdiff::kBriefSpins);
+    is_new = espdiff::set_environment_default("OMP_WAIT_POLICY", "passive");  // of other libraries than libgomp
+  }
   // Huge pages for glibc's heap: the kernel takes a tenth of a pair's time to hand out small ones.
   is_new = espdiff::set_environment_default("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1") || is_new;
   if (is_new) espdiff::become_program("/proc/self/exe", {argv, argv + argc});  // returns only without /proc

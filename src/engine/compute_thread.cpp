@@ -4,11 +4,18 @@
 #include <omp.h>
 
 #include <cfenv>
+#include <cstdlib>
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
 
 namespace espdiff {
+namespace {
+
+/// Who loads this library may unset it afterwards.
+const bool kHadSpinCount = std::getenv("GOMP_SPINCOUNT") != nullptr;
+
+}  // namespace
 
 void set_default_rounding() {
   std::fesetenv(FE_DFL_ENV);
@@ -18,7 +25,9 @@ void set_default_rounding() {
 #endif
 }
 
-SleepingTeam::SleepingTeam() : thread_([this] { sleep(); }) {}
+SleepingTeam::SleepingTeam() {
+  if (!kHadSpinCount) thread_ = std::thread([this] { sleep(); });
+}
 
 SleepingTeam::~SleepingTeam() {
   {
@@ -26,7 +35,7 @@ SleepingTeam::~SleepingTeam() {
     awake_ = true;
   }
   wake_up_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 void SleepingTeam::sleep() {

@@ -11,9 +11,14 @@ namespace espdiff {
 /// to zero, and threads inherit that: results would differ from the command line's in their last bits.
 void set_default_rounding();
 
-/// Keeps OpenMP's threads from spinning while they wait, as long as it lives. Beside another busy program spinning
-/// makes a computation up to ten times as long. OMP_WAIT_POLICY, which forbids it, is read before this library is
-/// loaded. With more threads than processors libgomp hardly spins, so a second team of threads is kept asleep.
+/// For GOMP_SPINCOUNT: how often libgomp's threads look for work before they sleep. A pair has thousands of short
+/// loops; a thread that sleeps at once after each makes two threads take 1.3 to 1.8 times as long. Four times as many
+/// looks make it three times as long beside another busy program, and libgomp's own 300,000 up to ten times.
+constexpr const char* kBriefSpins = "5000";
+
+/// Keeps OpenMP's threads from spinning while they wait, as long as it lives, unless GOMP_SPINCOUNT was set when this
+/// library was loaded. libgomp reads it before; without it, it hardly spins with more threads than processors, so a
+/// second team of threads is kept asleep.
 class SleepingTeam {
  public:
   SleepingTeam();

@@ -3,12 +3,14 @@
 import ctypes
 import multiprocessing
 import os
+import re
 import resource
 import signal
 import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -213,3 +215,25 @@ def test_numpy_copies_no_positions():
     tracemalloc.stop()
     assert len(state) == n
     assert peak < positions.nbytes / 4  # tracemalloc sees NumPy's copies, not the engine's one
+
+
+def spins_in_a_new_process(before="", **environment):
+    """What the engine's library saw of GOMP_SPINCOUNT as it was loaded, and what the process has afterwards."""
+    program = (before + "import os, sys, espdiff\n"
+               "print(os.environ.get('GOMP_SPINCOUNT'))")
+    names = ("GOMP_SPINCOUNT", "OMP_WAIT_POLICY")
+    usual = {name: value for name, value in os.environ.items() if name not in names}
+    done = subprocess.run([sys.executable, "-c", program], env={**usual, "OMP_DISPLAY_ENV": "VERBOSE", **environment},
+                          capture_output=True, text=True, check=True)
+    told = [line.split("'")[1] for line in done.stderr.splitlines() if "GOMP_SPINCOUNT" in line]
+    return told, done.stdout.strip()
+
+
+def test_threads_look_briefly_for_work_before_they_sleep():
+    header = Path(__file__).parents[2] / "src" / "engine" / "compute_thread.h"
+    brief = re.search(r'kBriefSpins = "(\d+)"', header.read_text(encoding="utf-8")).group(1)
+    assert spins_in_a_new_process() == ([brief], "None")
+    assert spins_in_a_new_process(GOMP_SPINCOUNT="77") == (["77"], "77")
+    assert spins_in_a_new_process(OMP_WAIT_POLICY="passive") == (["0"], "None")
+    loaded_before = "import ctypes; ctypes.CDLL('libgomp.so.1')\n"
+    assert spins_in_a_new_process(loaded_before) == (["300000"], "None")
