@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "system/control_groups.h"
 #include "system/this_process.h"
 
 namespace espdiff {
@@ -61,27 +62,14 @@ std::string gigabytes(double n_bytes) { return formatted("%.1f GB", std::max(0.0
 
 double left_in_groups(const std::string& group_file, const std::string& mount) {
   double least = kUnlimited;
-  std::ifstream groups(group_file);
-  for (std::string line; std::getline(groups, line);) {
-    // "0::/path" in version 2, "4:cpu,memory:/path" in version 1.
-    const std::size_t controllers = line.find(':'), path = line.find(':', controllers + 1);
-    if (path == std::string::npos) continue;
-    const std::string names = "," + line.substr(controllers + 1, path - controllers - 1) + ",";
-    const bool is_version_2 = names == ",,";
-    if (!is_version_2 && names.find(",memory,") == std::string::npos) continue;
-    const std::string root = is_version_2 ? mount : mount + "/memory";
-    for (std::string group = line.substr(path + 1);; group.erase(group.find_last_of('/'))) {
-      while (!group.empty() && group.back() == '/') group.pop_back();
-      least = std::min(least, left_in(root + group, is_version_2 ? kVersion2 : kVersion1));
-      if (group.find('/') == std::string::npos) break;
-    }
-  }
+  for (const ControlGroup& group : control_groups("memory", group_file, mount))
+    least = std::min(least, left_in(group.folder, group.is_version_2 ? kVersion2 : kVersion1));
   return least;
 }
 
 double available_memory() {
   return std::min(
-      {available_in_machine(), left_in_groups("/proc/self/cgroup", "/sys/fs/cgroup"), left_in_address_space()});
+      {available_in_machine(), left_in_groups(kControlGroups, kControlGroupMount), left_in_address_space()});
 }
 
 void require_memory(double n_bytes, const std::string& what) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 
 #include "base/error.h"
 #include "base/formatted.h"
@@ -59,6 +60,17 @@ PotentialUnit parse_potential_unit(const std::string& text) {
   if (key == "hartreee" || key == "hartree" || key == "au") return PotentialUnit::kHartreePerE;
   if (key == "unknown") return PotentialUnit::kUnknown;
   throw InputError("unknown potential unit '" + text + "'; use kT/e, mV, V, kcal/mol/e, kJ/mol/e or hartree/e");
+}
+
+bool is_in_vacuum(const std::string& potential_unit) {
+  const std::string ending = kInVacuum;
+  return potential_unit.size() > ending.size() &&
+         potential_unit.compare(potential_unit.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+std::string without_vacuum(const std::string& potential_unit) {
+  return is_in_vacuum(potential_unit) ? potential_unit.substr(0, potential_unit.size() - std::strlen(kInVacuum))
+                                      : potential_unit;
 }
 
 double conversion_factor(PotentialUnit from, PotentialUnit to, double temperature_K) {

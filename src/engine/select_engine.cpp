@@ -2,12 +2,11 @@
 #include "engine/select_engine.h"
 #include "engine/engine.h"
 
-#include <algorithm>
 #include <cstdlib>
-#include <thread>
 
 #include "base/error.h"
 #include "engine/make_engine.h"
+#include "system/control_groups.h"
 
 namespace espdiff {
 namespace {
@@ -90,7 +89,7 @@ int available_threads() {
   const char* const text = std::getenv("OMP_NUM_THREADS");
   const long wanted = text != nullptr ? std::strtol(text, nullptr, 10) : 0;
   if (wanted > 0 && wanted <= kMostThreads) return static_cast<int>(wanted);
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return usable_processors();
 }
 
 BackEndStatus cpu_status() {

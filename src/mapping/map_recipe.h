@@ -53,8 +53,6 @@ struct MadeMap {
 std::string to_string(PotentialMethod method);
 /// Whether the charges see neither water nor a dielectric.
 bool is_vacuum(const MapRecipe& recipe);
-/// Follows the unit of a potential in vacuum.
-constexpr const char* kInVacuum = " in vacuum";
 /// In a few words, for tables and legends: "vacuum (Coulomb)", "Poisson-Boltzmann, 0.15 mol/l".
 std::string potential_label(const MapRecipe& recipe);
 /// "bulk solvent", "mean of the cell" or "far away".

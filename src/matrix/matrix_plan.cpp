@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "base/version.h"
 #include "engine/engine.h"
 #include "field/field_kinds.h"

@@ -7,6 +7,7 @@
 #include "align/geometry/rigid_domains.h"
 #include "base/formatted.h"
 #include "base/text/short_numbers.h"
+#include "base/units.h"
 #include "certificate/trusted_area.h"
 #include "mapping/map_recipe.h"
 #include "options/options.h"

@@ -1,6 +1,7 @@
 // write_surface.cpp: one molecule's surface as a .vtp file.
 #include "report/write_surface.h"
 
+#include "base/units.h"
 #include "io/files/atomic_file.h"
 #include "io/vtk/write_vtp.h"
 #include "mapping/build_surface.h"

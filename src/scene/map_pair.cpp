@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "io/grids/read_grid.h"
 #include "scene/map_sampling.h"
 
@@ -24,7 +25,8 @@ std::shared_ptr<Grid> read_recorded(const RecordedInput& input, const std::strin
   GridFile file = read_grid_file(input.path);
   if (file.sha256 != input.sha256) throw InputError(input.path + " has changed since the comparison");
   auto map = std::make_shared<Grid>(std::move(file.grid));
-  const PotentialUnit to = unit.empty() || unit == "unknown" ? PotentialUnit::kUnknown : parse_potential_unit(unit);
+  const std::string name = without_vacuum(unit);
+  const PotentialUnit to = name.empty() || name == "unknown" ? PotentialUnit::kUnknown : parse_potential_unit(name);
   if (map->unit != PotentialUnit::kUnknown && to != PotentialUnit::kUnknown && map->unit != to) {
     const auto factor = static_cast<float>(conversion_factor(map->unit, to, temperature_K));
     for (float& value : map->values) value *= factor;

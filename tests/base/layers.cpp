@@ -33,7 +33,7 @@ const Rooms kAllowed = {
     {"statistics", {"base", "statistics/surface"}},
     {"prepare/charges", {"system", "base", "align", "io"}},
     {"prepare", {"system", "base", "align", "io", "prepare/charges"}},
-    {"engine", {"base"}},
+    {"engine", {"system", "base"}},
     {"cuda/device", {"base", "engine"}},
     {"cuda/surface/mesh", {"base", "engine", "cuda/device"}},
     {"cuda/surface/density", {"base", "engine", "cuda/device", "cuda/surface/mesh"}},

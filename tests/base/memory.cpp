@@ -4,12 +4,15 @@
 #include <doctest/doctest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <thread>
 
 #include "base/error.h"
 #include "support/limit_memory.h"
 #include "support/test_data.h"
+#include "system/control_groups.h"
 
 using namespace espdiff;
 using namespace espdiff_test;
@@ -25,6 +28,9 @@ class Groups {
   }
   double left(const std::string& membership) {
     return left_in_groups(folder_.write("cgroup", membership), folder_.file("fs"));
+  }
+  int processors(const std::string& membership) {
+    return usable_processors(folder_.write("cgroup", membership), folder_.file("fs"));
   }
 
  private:
@@ -66,6 +72,24 @@ TEST_CASE("control groups, version 1, beside an empty version 2") {
   groups.set("/memory", "memory.limit_in_bytes", "9223372036854771712");
   CHECK(groups.left("12:cpu,cpuacct:/slurm\n9:memory:/slurm/job_7\n0::/x\n") == 4800);
   CHECK(std::isinf(groups.left("12:cpu,cpuacct:/slurm\n")));
+}
+
+TEST_CASE("control groups with a share of the processors' time: as many threads as that keeps busy") {
+  Groups groups;
+  const int all = groups.processors("0::/pod\n");
+  CHECK(all == static_cast<int>(std::thread::hardware_concurrency()));
+  groups.set("/pod", "cpu.max", "max 100000");
+  CHECK(groups.processors("0::/pod\n") == all);
+  groups.set("", "cpu.max", "50000 100000");
+  CHECK(groups.processors("0::/pod\n") == 1);
+  groups.set("", "cpu.max", "150000 100000");
+  CHECK(groups.processors("0::/pod\n") == std::min(2, all));
+  groups.set("/cpu/job", "cpu.cfs_quota_us", "-1");
+  groups.set("/cpu/job", "cpu.cfs_period_us", "100000");
+  CHECK(groups.processors("4:cpu,cpuacct:/job\n") == all);
+  groups.set("/cpu/job", "cpu.cfs_quota_us", "80000");
+  CHECK(groups.processors("4:cpu,cpuacct:/job\n") == 1);
+  CHECK(groups.processors("4:cpuset:/job\n") == all);
 }
 
 TEST_CASE("a limit on the address space is a limit on memory") {

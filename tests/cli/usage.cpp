@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "cli/run_espdiff.h"
+#include "engine/compute_thread.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 
@@ -40,6 +41,20 @@ TEST_CASE("help says which numbers an option takes") {
   CHECK(contains(render, "Pixels; a whole number from 400 to 6000 (default 1800)\n"));
   CHECK(contains(run_espdiff("man plot").out, "0 for all, in file order; a whole number from 0 to 100000\n"));
   CHECK(contains(run_espdiff("trajectory --help-all").out, "a whole number from 0 to 1024 (default 0)\n"));
+}
+
+TEST_CASE("threads look briefly for work before they sleep, unless the user's settings say otherwise") {
+  const auto last_told = [](const std::string& settings) {
+    const std::string told =
+        run_espdiff("doctor", "unset OMP_WAIT_POLICY GOMP_SPINCOUNT; " + settings + " OMP_DISPLAY_ENV=VERBOSE").err;
+    const std::size_t at = told.rfind("GOMP_SPINCOUNT = '");
+    return at == std::string::npos ? std::string() : told.substr(at + 18, told.find('\'', at + 18) - at - 18);
+  };
+  const std::string usual = last_told("");
+  if (usual.empty()) return;  // not libgomp
+  CHECK(usual == espdiff::kBriefSpins);
+  CHECK(last_told("GOMP_SPINCOUNT=77") == "77");
+  CHECK(last_told("OMP_WAIT_POLICY=passive") == "0");
 }
 
 TEST_CASE("help starts the program once, and a computation a second time, so that its threads sleep while they wait") {

@@ -1,5 +1,7 @@
 // comparison.cpp: reading a comparison's files for pictures, also with some missing.
+#include "base/units.h"
 #include "scene/comparison_files.h"
+#include "scene/map_pair.h"
 
 #include <doctest/doctest.h>
 #include <vtkCamera.h>
@@ -143,6 +145,14 @@ TEST_CASE("maps are used only if they are those of the comparison") {
   CHECK(contains(maps.why_not, "source.dx no longer exists"));
   std::filesystem::remove(scratch.file("pair.json"));
   CHECK(contains(read_comparison(vtp, {}).maps.why_not, "pair.json is missing, which names the maps"));
+}
+
+TEST_CASE("maps in vacuum are used like others") {
+  const ScratchFolder scratch;
+  auto files = read_comparison(copied(scratch), {});
+  files.surface.potential_unit = std::string("kT/e") + espdiff::kInVacuum;
+  const MapPair maps = espdiff::read_map_pair(files.record, files.surface);
+  CHECK_MESSAGE(maps.complete(), maps.why_not);
 }
 
 TEST_CASE("potentials computed in process have no map files: the picture's text says so, and no note") {

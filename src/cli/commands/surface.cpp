@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/formatted.h"
+#include "base/units.h"
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/output_prefix.h"

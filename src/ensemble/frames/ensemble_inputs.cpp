@@ -9,6 +9,7 @@
 #include "align/pair_atoms.h"
 #include "base/error.h"
 #include "base/molecule/backbone_trace.h"
+#include "base/units.h"
 #include "base/version.h"
 #include "ensemble/frames/medoid.h"
 #include "ensemble/frames/template_choice.h"

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/formatted.h"
+#include "base/units.h"
 #include "ensemble/file/ensemble_file.h"
 #include "ensemble/result/ensemble_result.h"
 #include "mapping/map_recipe.h"
@@ -119,7 +119,7 @@ void print_patches(std::ostream& out, const EnsembleResult& result, const std::s
       of_runs(result), result.options.alpha, result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t",
       result.test.smallest_p);
   if (result.patches.empty()) return;
-  const std::string in_column = is_in_vacuum(unit) ? unit.substr(0, unit.size() - std::strlen(kInVacuum)) : unit;
+  const std::string in_column = without_vacuum(unit);
   out << formatted("%-5s %10s %12s %20s %8s  %s\n", "patch", "area (A^2)", ("diff." + in_brackets(in_column)).c_str(),
                    formatted("%.0f %% interval", confidence).c_str(), "p", "residues");
   constexpr std::size_t kMost = 10;

@@ -2,10 +2,10 @@
 #include "report/records/record.h"
 
 #include <algorithm>
-#include <string_view>
 
 #include "base/not_a_number.h"
 #include "base/text/printable.h"
+#include "base/units.h"
 #include "mapping/map_recipe.h"
 #include "report/records/metrics.h"
 
@@ -63,15 +63,6 @@ bool Record::is_unchecked(const Metric& metric) const {
                      [&](const std::string& name) { return pointer.rfind("/certificate/" + name + "/", 0) == 0; });
 }
 
-bool is_in_vacuum(const std::string& potential_unit) {
-  const std::string_view ending = kInVacuum;
-  return potential_unit.size() > ending.size() &&
-         potential_unit.compare(potential_unit.size() - ending.size(), ending.size(), ending) == 0;
-}
-
-std::string Record::potential_unit() const {
-  const std::string unit = text("/potential_unit");
-  return is_in_vacuum(unit) ? unit.substr(0, unit.size() - std::string_view(kInVacuum).size()) : unit;
-}
+std::string Record::potential_unit() const { return without_vacuum(text("/potential_unit")); }
 
 }  // namespace espdiff

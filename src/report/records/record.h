@@ -41,7 +41,4 @@ class Record {
   const Json& json_;
 };
 
-/// Whether a potential's unit says that it is one in vacuum.
-bool is_in_vacuum(const std::string& potential_unit);
-
 }  // namespace espdiff

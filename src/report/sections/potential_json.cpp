@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/units.h"
 #include "certificate/result.h"
 #include "input_checks/map_check.h"
 #include "report/sections/json_number.h"
