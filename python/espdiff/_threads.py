@@ -1,7 +1,6 @@
 """How the engine's threads wait, which their library asks the environment while it is loaded."""
 
 import contextlib
-import ctypes
 import os
 
 BRIEF_SPINS = "5000"  # kBriefSpins in src/engine/compute_thread.h
@@ -9,8 +8,9 @@ BRIEF_SPINS = "5000"  # kBriefSpins in src/engine/compute_thread.h
 
 def is_loaded(library):
     try:
+        import ctypes
         ctypes.CDLL(library, mode=os.RTLD_NOLOAD)
-    except (OSError, AttributeError):
+    except (ImportError, OSError, AttributeError):  # Python inside another program may have no ctypes
         return False
     return True
 
