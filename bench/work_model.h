@@ -19,8 +19,8 @@ Work isosurface_work(const StageInputs& in);
 Work density_field_work(const StageInputs& in);
 /// One iteration on the regularized source in the target's field.
 Work deform_iteration_work(const StageInputs& in, bool tricubic);
-/// The density and its gradient at the mapped triangles' centroids. This and the next three: zero above 10,000 atoms,
-/// where counting the pairs would take too long.
+/// The density and its gradient at the mapped triangles' centroids. This and the next three: no
+/// operations above 10,000 atoms, where counting the pairs would take too long.
 Work fit_work(const StageInputs& in);
 /// The same at the isosurface's vertices, twice: a step of Newton's method, and the look whether it has arrived.
 Work project_work(const StageInputs& in);

@@ -12,8 +12,8 @@ namespace espdiff {
 void set_default_rounding();
 
 /// For GOMP_SPINCOUNT: how often libgomp's threads look for work before they sleep. A pair has thousands of short
-/// loops; a thread that sleeps at once after each makes two threads take 1.3 to 1.8 times as long. Four times as many
-/// looks make it three times as long beside another busy program, and libgomp's own 300,000 up to ten times.
+/// loops; a thread that sleeps at once after each makes two threads take 1.2 to 1.8 times as long. Four times as many
+/// looks make it 1.6 to 3 times as long beside busy programs, and libgomp's own 300,000 up to ten times.
 constexpr const char* kBriefSpins = "5000";
 
 /// Keeps OpenMP's threads from spinning while they wait, as long as it lives, unless GOMP_SPINCOUNT was set when this

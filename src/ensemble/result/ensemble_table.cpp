@@ -12,7 +12,6 @@
 #include "base/units.h"
 #include "ensemble/file/ensemble_file.h"
 #include "ensemble/result/ensemble_result.h"
-#include "mapping/map_recipe.h"
 #include "potential/potential_settings.h"
 #include "report/records/record.h"
 #include "report/sections/placement.h"

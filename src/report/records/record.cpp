@@ -6,7 +6,6 @@
 #include "base/not_a_number.h"
 #include "base/text/printable.h"
 #include "base/units.h"
-#include "mapping/map_recipe.h"
 #include "report/records/metrics.h"
 
 namespace espdiff {
