@@ -135,21 +135,7 @@ PmeCell padded_cell(const std::vector<Vec3d>& positions, double pad_A) {
           {Vec3d{side.x + pads, 0, 0}, Vec3d{0, side.y + pads, 0}, Vec3d{0, 0, side.z + pads}}};
 }
 
-PmeCell cell_from(const UnitCell& cell, Vec3d centre) {
-  constexpr double kDegree = kPi / 180;
-  // Right angles are exact: the cosine of 90 degrees in radians is not zero.
-  const auto cosine = [](double angle) { return angle == 90 ? 0.0 : std::cos(angle * kDegree); };
-  const double cos_bc = cosine(cell.angles.x), cos_ac = cosine(cell.angles.y), cos_ab = cosine(cell.angles.z);
-  const double sin_ab = cell.angles.z == 90 ? 1.0 : std::sin(cell.angles.z * kDegree);
-  const double y = sin_ab > 0 ? (cos_bc - cos_ac * cos_ab) / sin_ab : 2, z_square = 1 - cos_ac * cos_ac - y * y;
-  if (!(z_square > 0))
-    throw InputError("no cell has the angles " + formatted(cell.angles.x) + ", " + formatted(cell.angles.y) + " and " +
-                     formatted(cell.angles.z) + " degrees; correct the file's CRYST1 record, or give the cell's edges");
-  const Vec3d& l = cell.lengths;
-  return {centre,
-          {Vec3d{l.x, 0, 0}, Vec3d{l.y * cos_ab, l.y * sin_ab, 0},
-           Vec3d{l.z * cos_ac, l.z * y, l.z * std::sqrt(z_square)}}};
-}
+PmeCell cell_from(const UnitCell& cell, Vec3d centre) { return {centre, edges_of(cell)}; }
 
 PmeCell choose_cell(const PotentialOptions& options, const std::vector<Vec3d>& positions,
                     const std::optional<UnitCell>& own_cell) {

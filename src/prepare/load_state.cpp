@@ -14,6 +14,7 @@
 #include "io/structures/read_topology.h"
 #include "io/structures/structure_file.h"
 #include "prepare/charges/pdb2pqr.h"
+#include "prepare/make_whole.h"
 #include "prepare/take_charges.h"
 
 namespace espdiff {
@@ -215,7 +216,10 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
       state.everything = file.read({structure.model, true, true, structure.assembly});
   }
   state.cell = file.unit_cell(structure.model);
-  state.is_changed = !structure.assembly.empty();
+  // With charges of its solvent the molecule stays where the cell has it.
+  if (state.cell && state.everything.size() == 0 && structure.assembly.empty())
+    state.n_border_bonds = make_whole(state.molecule, *state.cell);
+  state.is_changed = !structure.assembly.empty() || state.n_border_bonds > 0;
   try {
     select_and_charge(state, request, options, progress);
     if (state.preparation) state.preparation->topology_beside = topology_beside(file, structure);

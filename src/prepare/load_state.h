@@ -34,6 +34,7 @@ struct ChargeFile {
 struct StateOrigin {
   std::optional<Preparation> preparation;  ///< where PDB2PQR made the charges
   std::vector<ChargeFile> charge_files;
+  std::size_t n_border_bonds = 0;  ///< that crossed the border of the file's periodic cell, see make_whole()
 };
 
 /// A state that was read: its atoms selected, and with charges where they could be had.

@@ -9,6 +9,7 @@
 #include "io/files/sha256.h"
 #include "io/molecules/write_pqr.h"
 #include "prepare/load_state.h"
+#include "prepare/make_whole.h"
 #include "report/sections/provenance.h"
 #include "report/write_compare.h"
 
@@ -22,6 +23,8 @@ std::string joined(const std::vector<std::string>& items, std::size_t most) {
 }
 
 void note_state(CompareResult& result, const std::string& role, const StateOrigin& state) {
+  if (state.n_border_bonds > 0)
+    result.inputs.warnings.push_back({"the " + role + " " + made_whole_in_words(state.n_border_bonds)});
   const std::string label = "Charges, " + role;
   for (const ChargeFile& file : state.charge_files) {
     if (file.use != "ligand") result.inputs.lines.emplace_back(label, "of " + file.path);

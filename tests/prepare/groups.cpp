@@ -174,3 +174,24 @@ TEST_CASE("charge_groups: hydrogens that Open Babel does not keep are made anew"
   REQUIRE(groups.charged.size() >= 9);
   CHECK(groups.charged.atoms[2].name == "O1");
 }
+
+TEST_CASE("group_sources: salt that touches nothing is left out, bound ions and ions of two charges stay") {
+  const auto ca = [](double x) {
+    return "ATOM      1  N   ALA A   1    " + std::string("   0.000   0.000   0.000  1.00  0.00           N\n") +
+           "ATOM      2  CA  ALA A   1       1.460   0.000   0.000  1.00  0.00           C\n" +
+           "ATOM      3  C   ALA A   1       2.000   1.420   0.000  1.00  0.00           C\n" +
+           hetatm(4, "NA", "NA", 2, x, 0, 0, "NA") + hetatm(5, "CL", "CL", 3, -20, 0, 0, "CL") +
+           hetatm(6, "ZN", "ZN", 4, 0, 20, 0, "ZN");
+  };
+  ChargeOptions options;
+  options.ligands_auto = false;
+  const std::vector<std::int32_t> no_files(4, -1);
+  const auto bound = group_sources(molecule_of(ca(-4.0)), no_files, options);
+  CHECK(bound[1] == GroupSource::kIon);
+  CHECK(bound[2] == GroupSource::kAdditive);
+  CHECK(bound[3] == GroupSource::kIon);
+  CHECK(group_sources(molecule_of(ca(-6.0)), no_files, options)[1] == GroupSource::kAdditive);
+  // Ions alone are what there is.
+  const Molecule alone = molecule_of(hetatm(1, "NA", "NA", 2, 0, 0, 0, "NA") + hetatm(2, "CL", "CL", 3, 9, 0, 0, "CL"));
+  CHECK(group_sources(alone, {-1, -1}, options)[0] == GroupSource::kIon);
+}

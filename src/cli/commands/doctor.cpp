@@ -62,7 +62,7 @@ int doctor_verb() {
   for (const BackEndStatus& status : {cpu_fourier_status(), cuda_fourier_status()})
     line(("pme on " + status.name).c_str(), status.available, status.description);
 #if defined(ESPDIFF_HAVE_GEMMI)
-  line("structures", true, "PQR, PDB, mmCIF");
+  line("structures", true, "PQR, PDB, mmCIF, GRO");
 #else
   line("structures", false, "PQR only: gemmi was not found when this was built (Debian: gemmi-dev)");
 #endif

@@ -201,7 +201,7 @@ Verb add_potential(CLI::App& app) {
   parser->footer("Options shared with PMEPot have its names and meanings.");
   parser
       ->add_option("MOLECULE", a->molecule,
-                   "Structure: PQR, or PDB and mmCIF, which PDB2PQR gives charges; several models are frames")
+                   "Structure: PQR, or PDB, mmCIF and GRO, which PDB2PQR gives charges; several models are frames")
       ->required();
   parser->add_option("-o,--output,--dxfile", a->output,
                      "Map to write: .dx (APBS, VMD, PyMOL) or .vti (ParaView); MOLECULE.dx in the working folder");

@@ -16,6 +16,7 @@
 #include "options/options.h"
 #include "prepare/input_files.h"
 #include "prepare/load_state.h"
+#include "prepare/make_whole.h"
 #include "report/sections/preparation_json.h"
 
 namespace espdiff::cli {
@@ -39,6 +40,7 @@ nlohmann::ordered_json as_json(const PrepareArguments& a, const Context& context
   nlohmann::ordered_json json;
   json["input"] = {{"path", a.input}, {"sha256", file.sha256()}, {"model", a.structure.model}};
   json["n_atoms_left_out"] = state.n_left_out;
+  json["n_bonds_across_cell"] = state.n_border_bonds;
   json["preparation"] = state.preparation ? preparation_json(*state.preparation) : nlohmann::ordered_json(nullptr);
   json["copies"] = repeated_chains(state.molecule);
   json["command_line"] = context.command_line;
@@ -47,6 +49,8 @@ nlohmann::ordered_json as_json(const PrepareArguments& a, const Context& context
 }
 
 void print_summary(const PrepareArguments& a, const LoadedState& state) {
+  if (state.n_border_bonds > 0)
+    std::cout << "cell            the molecule " << made_whole_in_words(state.n_border_bonds) << '\n';
   if (state.preparation) {
     print_preparation(std::cout, *state.preparation);
   } else {
@@ -94,7 +98,7 @@ Verb add_prepare(CLI::App& app) {
       "Runs PDB2PQR (Debian: pdb2pqr) with PROPKA. The verbs that compare do the same for structures without "
       "charges.\n\n"
       "Writes OUT.pqr, and OUT.json with what was added, repaired and protonated.");
-  parser->add_option("IN", a->input, "Structure: PDB, mmCIF or PQR")->required();
+  parser->add_option("IN", a->input, "Structure: PDB, mmCIF, GRO or PQR")->required();
   parser->add_option("-o,--output", a->output, "PQR file to write; IN.pqr in the working folder");
   parser->add_option("--json", a->json, "File for what was done; default: the PQR's name with .json");
   add_model_option(*parser, a->structure);

@@ -85,13 +85,13 @@ Verb add_trajectory(CLI::App& app) {
       "Frames are the models of the given files, numbered from 0 through all of them, or the frames of trajectories\n"
       "that VMD reads (DCD, XTC, TRR, NetCDF, ...), with all atoms of SOURCE in its order. With a topology (PSF,\n"
       "prmtop, GRO, ...) as SOURCE, the others are compared with the first frame. Frames without charges and radii\n"
-      "(PDB, mmCIF) take those of a PQR source, whose atoms must be theirs, one to one. The source's surface and\n"
+      "(PDB, mmCIF, GRO) take those of a PQR source, whose atoms must be theirs, one to one. The source's surface and\n"
       "potential are computed once. An interrupted run can be resumed; OUT.csv.state holds its last mapping "
       "meanwhile.\n"
       "The columns are explained in docs/tcl.md, Trajectories.");
   parser
       ->add_option("SOURCE", a->study.source,
-                   "Structure that each frame is compared with: PQR, PDB or mmCIF; or a topology")
+                   "Structure that each frame is compared with: PQR, PDB, mmCIF or GRO; or a topology")
       ->required();
   parser->add_option("FRAMES", a->study.frames, "Structure files whose models are the frames, or trajectories")
       ->required();

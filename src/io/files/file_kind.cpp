@@ -64,6 +64,23 @@ bool is_cube(std::string_view head) {
   return true;
 }
 
+/// GRO: a title, the number of atoms, then lines of residue number, two names and atom number in columns of five, and
+/// coordinates with points.
+bool is_gro(std::string_view head) {
+  const auto next_line = [&] {  // with its leading blanks, which are columns here
+    const std::string_view line = head.substr(0, head.find('\n'));
+    head.remove_prefix(std::min(line.size() + 1, head.size()));
+    return line;
+  };
+  next_line();
+  long long number = 0;
+  if (!parse_integer(trimmed(next_line()), number) || number < 1) return false;
+  const std::string_view atom = next_line();
+  constexpr std::size_t kWidth = 5;
+  return atom.size() > 4 * kWidth && parse_integer(trimmed(atom.substr(0, kWidth)), number) &&
+         parse_integer(trimmed(atom.substr(3 * kWidth, kWidth)), number) && contains(atom.substr(4 * kWidth), ".");
+}
+
 /// By the first line that says something.
 FileKind recognise_first_line(std::string_view line) {
   const std::string lower = lower_case(line);
@@ -93,6 +110,7 @@ FileKind recognise(std::string_view head) {
   if (contains(head, std::string_view("\0", 1))) return FileKind::kUnknownBinary;
   if (starts_with(head, "\xef\xbb\xbf")) return recognise(head.substr(3));  // byte order mark
   if (is_cube(head)) return FileKind::kCube;                                // before its title is taken for something
+  if (is_gro(head)) return FileKind::kGro;
   const std::string unused_path;
   TextCursor cursor(head, unused_path);
   bool first = true;
@@ -112,6 +130,7 @@ std::string describe(FileKind kind) {
   switch (kind) {
     case FileKind::kAtomRecords: return "a PDB or PQR structure";
     case FileKind::kMmcif: return "an mmCIF file";
+    case FileKind::kGro: return "a GROMACS GRO structure";
     case FileKind::kMmjson: return "a JSON (mmJSON) file";
     case FileKind::kBinaryCif: return "a BinaryCIF structure";
     case FileKind::kMmtf: return "an MMTF structure";

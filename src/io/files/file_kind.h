@@ -12,6 +12,7 @@ enum class FileKind {
   kUnknownBinary,
   kAtomRecords,  ///< PDB or PQR: which of them, see looks_like_pqr()
   kMmcif,        ///< any CIF
+  kGro,
   kMmjson,
   kBinaryCif,
   kMmtf,

@@ -17,7 +17,7 @@ struct MolfileReader;
 /// How a file is opened as a StructureFile.
 using OpenStructure = std::function<std::unique_ptr<StructureFile>(const std::string& path)>;
 
-/// A structure file: PQR, PDB or mmCIF. @throws as StructureFile
+/// A structure file: PQR, PDB, mmCIF or GRO. @throws as StructureFile
 std::unique_ptr<StructureFile> open_structure(const std::string& path);
 
 /// Opens what VMD's readers read as well, or where they are absent frame_reader() and DcdFrames. Trajectories get the

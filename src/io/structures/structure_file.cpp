@@ -17,7 +17,7 @@
 namespace espdiff {
 namespace {
 
-/// "give a PQR, PDB or mmCIF file"
+/// "give a PQR, PDB, mmCIF or GRO file"
 std::string other_format() {
   std::vector<std::string> names;
   for (const StructureFormat& format : structure_formats()) names.push_back(format.name);

@@ -208,6 +208,33 @@ void keep_torn_chains(const std::vector<ResidueKind>& kinds, std::vector<GroupSo
   std::replace(sources.begin(), sources.end(), GroupSource::kTorn, GroupSource::kNone);
 }
 
+/// Whether an ion of one charge touches nothing but the solvent: there it is part of the salt, which has no place.
+bool is_free_ion(const Molecule& molecule, std::size_t ion, const std::vector<GroupSource>& sources,
+                 const std::vector<ResidueKind>& kinds) {
+  constexpr double kTouch_A = 5;
+  const auto parameters = ion_parameters(
+      molecule.residues[static_cast<std::size_t>(molecule.atoms[ion].residue)].name, molecule.atoms[ion].element);
+  if (!parameters || std::fabs(parameters->charge) != 1) return false;
+  for (std::size_t i = 0; i < molecule.size(); ++i) {
+    const auto r = static_cast<std::size_t>(molecule.atoms[i].residue);
+    const bool holds = kinds[r] != ResidueKind::kWater && sources[r] != GroupSource::kIon &&
+                       sources[r] != GroupSource::kAdditive && sources[r] != GroupSource::kGas;
+    if (holds && norm(molecule.positions[i] - molecule.positions[ion]) < kTouch_A) return false;
+  }
+  return true;
+}
+
+/// Leaves the ions of the salt out, if there is something else.
+void drop_free_ions(const Molecule& molecule, const std::vector<std::vector<std::size_t>>& atoms,
+                    const std::vector<ResidueKind>& kinds, std::vector<GroupSource>& sources) {
+  if (std::none_of(kinds.begin(), kinds.end(), is_polymer)) return;
+  std::vector<std::size_t> free;
+  for (std::size_t r = 0; r < sources.size(); ++r) {
+    if (sources[r] == GroupSource::kIon && is_free_ion(molecule, atoms[r].front(), sources, kinds)) free.push_back(r);
+  }
+  for (const std::size_t r : free) sources[r] = GroupSource::kAdditive;
+}
+
 }  // namespace
 
 std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vector<std::int32_t>& ligand_of,
@@ -237,6 +264,7 @@ std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vect
     }
   }
   keep_torn_chains(kinds, sources);
+  drop_free_ions(molecule, atoms, kinds, sources);
   return sources;
 }
 

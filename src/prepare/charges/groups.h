@@ -17,8 +17,8 @@ struct ChargeOptions;
 enum class GroupSource { kNone, kIon, kGas, kHaem, kAdditive, kOpenBabel, kPhosphate, kModified, kCap, kTorn };
 
 /// [residue] of the groups beside the chains: ions of one atom by ion_parameters(); gases (O2, CO, NO,
-/// Xe, Kr, Ar), which get no charge; haem (HEM, HEC); additives by a list
-/// of names, which are left out; every other group by Open Babel, if options.ligands_auto and it is there, as a kCap
+/// Xe, Kr, Ar), which get no charge; haem (HEM, HEC); additives by a list of names, which are left out, as ions of one
+/// charge are that lie 5 Angstrom and more from everything else; every other group by Open Babel, if options.ligands_auto and it is there, as a kCap
 /// where it is bound to the end of a chain next to it (is_bound_as_cap()). kNone for all that PDB2PQR charges or that
 /// gets no charge: chains, caps, ligands with a MOL2 file. Amino acids by amino_acid_source(), of which torn ones are
 /// left out as additives are, unless they are more than a tenth.

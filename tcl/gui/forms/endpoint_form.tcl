@@ -79,7 +79,7 @@ namespace eval ::espdiff::gui {
         variable widget
         variable structure_types
         ttk::entry $path.file -textvariable ::espdiff::gui::form($side,file) -width 12
-        form_row $path 4 File $path.file "Structure file: PQR (charges and radii), PDB or mmCIF, which get\
+        form_row $path 4 File $path.file "Structure file: PQR (charges and radii), PDB, mmCIF or GRO, which get\
             charges by PDB2PQR"
         button $path.browse_file ... [list ::espdiff::gui::browse $side file $structure_types]
         tip $path.browse_file "Choose a file"

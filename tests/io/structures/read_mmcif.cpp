@@ -34,6 +34,18 @@ std::string mmcif_error(const std::string& text) { return structure_error("a.cif
 
 }  // namespace
 
+TEST_CASE("read_mmcif: PyMOL's files, without numbers of authors, have those of the sequence") {
+  std::string head = kMmcifHead;
+  head.replace(head.find("auth_seq_id"), 11, "label_seq_id");
+  const Molecule m = molecule_of_mmcif(head + kRows);
+  REQUIRE(m.size() == 4);
+  CHECK(m.residues[0].number == 7);
+  CHECK(m.residues[1].number == 8);
+  CHECK(m.residues[1].chain == "Y");
+  head.replace(head.find("_atom_site.label_seq_id\n"), 24, "_atom_site.other\n");
+  CHECK(mmcif_error(head + kRows).find("mmCIF without the column _atom_site.auth_seq_id") != std::string::npos);
+}
+
 TEST_CASE("read_mmcif: author's names, file order, locations, models, filters") {
   const Molecule m = molecule_of_mmcif(kMmcifHead + kRows);
   REQUIRE(m.size() == 4);

@@ -225,7 +225,9 @@ long row_line(const std::string& text, const gemmi::cif::Item& item, std::size_t
 
 void check_atom_site(const std::string& path, const std::string& text, gemmi::cif::Block& block) {
   for (const char* column : {"id", "type_symbol", "label_asym_id", "Cartn_x", "Cartn_y", "Cartn_z", "auth_seq_id"}) {
-    if (!block.find_values(std::string("_atom_site.") + column)) {
+    // PyMOL writes no numbers of authors.
+    const bool has_other = column == std::string_view("auth_seq_id") && block.find_values("_atom_site.label_seq_id");
+    if (!has_other && !block.find_values(std::string("_atom_site.") + column)) {
       throw InputError(path + ": mmCIF without the column _atom_site." + column +
                        (block.items.empty() ? " (no atoms at all)" : "") +
                        "; give a macromolecular mmCIF with coordinates");
@@ -243,14 +245,27 @@ void check_atom_site(const std::string& path, const std::string& text, gemmi::ci
   }
 }
 
-/// Columns that gemmi insists on and we can do without.
+/// A column that gemmi insists on and the file lacks.
+struct MissingColumn {
+  const char* name;
+  const char* value;  ///< in every row, where there is no other column to take it from
+  const char* other;
+};
+
 void add_missing_columns(gemmi::cif::Block& block) {
-  for (const auto& [column, value] : {std::pair("label_alt_id", "."), {"occupancy", "1"}, {"B_iso_or_equiv", "0"}}) {
-    const std::string tag = std::string("_atom_site.") + column;
+  for (const MissingColumn& missing : {MissingColumn{"label_alt_id", ".", nullptr}, {"occupancy", "1", nullptr},
+                                       {"B_iso_or_equiv", "0", nullptr}, {"auth_seq_id", ".", "label_seq_id"}}) {
+    const std::string tag = std::string("_atom_site.") + missing.name;
     if (block.find_values(tag)) continue;
+    std::vector<std::string> column;
+    if (missing.other != nullptr) {
+      const gemmi::cif::Column other = block.find_values(std::string("_atom_site.") + missing.other);
+      column.assign(other.begin(), other.end());
+    }
+    const auto value_of = [&](std::size_t row) { return row < column.size() ? column[row] : missing.value; };
     gemmi::cif::Item& first = block.items.front();
     if (first.type != gemmi::cif::ItemType::Loop) {
-      block.items.emplace_back(tag, value);  // one atom, as pairs of tag and value
+      block.items.emplace_back(tag, value_of(0));  // one atom, as pairs of tag and value
       continue;
     }
     const std::size_t width = first.loop.tags.size();
@@ -258,7 +273,7 @@ void add_missing_columns(gemmi::cif::Block& block) {
     values.reserve(first.loop.values.size() / width * (width + 1));
     for (std::size_t i = 0; i < first.loop.values.size(); ++i) {
       values.push_back(std::move(first.loop.values[i]));
-      if ((i + 1) % width == 0) values.emplace_back(value);
+      if ((i + 1) % width == 0) values.push_back(value_of(i / width));
     }
     first.loop.values = std::move(values);
     first.loop.tags.push_back(tag);

@@ -1,0 +1,220 @@
+// gro.cpp: GROMACS' GRO files as a format of structures.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/molecule/water.h"
+#include "io/molecules/molecule_builder.h"
+#include "io/structures/structure_format.h"
+#include "io/text/text_cursor.h"
+
+namespace espdiff {
+namespace {
+
+constexpr double kAngstromPerNm = 10;
+/// Columns of a line of an atom: number and name of the residue, name and number of the atom, five each; then the
+/// coordinates, whose width is the distance of their points.
+constexpr std::size_t kWidth = 5, kNumbersAt = 4 * kWidth;
+
+struct GroAtom {
+  std::string_view text;
+  long line = 0;
+  int residue_number = 0;
+  std::size_t chain = 0;  ///< see set_chains()
+
+  std::string_view residue_name() const { return trimmed(text.substr(kWidth, kWidth)); }
+  std::string_view name() const { return trimmed(text.substr(2 * kWidth, kWidth)); }
+};
+
+struct GroModel {
+  std::vector<GroAtom> atoms;
+  std::string_view box;
+  long box_line = 0;
+  std::size_t n_chains = 0;
+};
+
+/// The chains, which the format does not name: where the numbers of residues other than water start over, another one
+/// begins. After 99,999 they start over too.
+void set_chains(GroModel& model) {
+  constexpr int kLargest = 99999;
+  std::size_t chain = 0;
+  int before = 0;
+  for (GroAtom& atom : model.atoms) {
+    atom.chain = chain;
+    if (is_water_name(atom.residue_name())) continue;
+    if (atom.residue_number < before && before != kLargest) atom.chain = ++chain;
+    before = atom.residue_number;
+  }
+  model.n_chains = chain + 1;
+}
+
+/// "A", "B", ...; nothing where there is one chain only.
+std::string chain_name(const GroModel& model, std::size_t chain) {
+  static const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
+  if (model.n_chains == 1) return {};
+  return chain < letters.size() ? letters.substr(chain, 1) : std::to_string(chain + 1);
+}
+
+GroAtom read_names(const std::string& path, std::string_view text, long line) {
+  GroAtom atom{text, line};
+  long long number = 0;
+  if (text.size() < kNumbersAt || !parse_integer(trimmed(text.substr(0, kWidth)), number))
+    throw FormatError(path, line,
+                      "this line of a GRO file has no residue number in its first five columns: " + in_quotes(text) +
+                          "; columns of residue number, residue, atom and atom number, five each, were expected: is "
+                          "the number of atoms above them right?");
+  atom.residue_number = static_cast<int>(number);
+  return atom;
+}
+
+Vec3d read_position(const std::string& path, const GroAtom& atom) {
+  const std::size_t first = atom.text.find('.', kNumbersAt), second = atom.text.find('.', first + 1);
+  const std::size_t width = second == std::string_view::npos ? 0 : second - first;
+  Vec3d position;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t begin = kNumbersAt + axis * width;
+    const std::string_view word = begin < atom.text.size() ? trimmed(atom.text.substr(begin, width)) : "";
+    double number = 0;
+    if (width == 0 || begin + width > atom.text.size() || !parse_number(word, number))
+      throw FormatError(path, atom.line,
+                        std::string(1, "xyz"[axis]) + " coordinate of atom " + in_quotes(atom.name()) + " is " +
+                            in_quotes(word) +
+                            "; three numbers of nm in columns of one width were expected: write the file again");
+    position[static_cast<int>(axis)] = kAngstromPerNm * number;
+  }
+  return position;
+}
+
+/// Edges in the order of the format: the diagonal, then a's y and z, b's x and z, c's x and y, which may be left out.
+std::optional<UnitCell> read_box(const std::string& path, const GroModel& model) {
+  std::array<double, 9> box{};
+  const std::vector<std::string_view> words = split_words(model.box);
+  bool is_box = words.size() == 3 || words.size() == box.size();
+  for (std::size_t i = 0; i < words.size() && is_box; ++i) is_box = parse_number(words[i], box[i]);
+  if (!is_box)
+    throw FormatError(path, model.box_line,
+                      "the box of a GRO file is " + in_quotes(model.box) +
+                          "; three or nine numbers of nm were expected: is the number of atoms above right?");
+  const Vec3d a = kAngstromPerNm * Vec3d{box[0], box[3], box[4]}, b = kAngstromPerNm * Vec3d{box[5], box[1], box[6]},
+              c = kAngstromPerNm * Vec3d{box[7], box[8], box[2]};
+  UnitCell cell;
+  cell.lengths = {norm(a), norm(b), norm(c)};
+  constexpr double kNoEdge_A = 1;
+  if (!(std::min({cell.lengths.x, cell.lengths.y, cell.lengths.z}) > kNoEdge_A)) return std::nullopt;
+  const auto angle = [](const Vec3d& p, const Vec3d& q) {
+    return std::acos(dot(p, q) / (norm(p) * norm(q))) * 180 / 3.14159265358979323846;
+  };
+  cell.angles = {angle(b, c), angle(a, c), angle(a, b)};
+  return cell;
+}
+
+bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r\n") == std::string_view::npos; }
+
+/// Lines with their leading blanks, which are columns here.
+struct Lines {
+  std::string_view rest;
+  long number = 0;  ///< of the line read last, from 1
+
+  std::string_view next() {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    ++number;
+    return line;
+  }
+};
+
+class GroModels : public StructureModels {
+ public:
+  explicit GroModels(FileContent file) : file_(std::move(file)) {
+    unify_line_ends(file_.content);
+    Lines lines{file_.content};
+    while (!is_blank(lines.rest)) models_.push_back(next_model(lines));
+  }
+
+  int n_models() const override { return static_cast<int>(models_.size()); }
+  std::optional<UnitCell> unit_cell(int model) const override { return read_box(file_.path, at(model)); }
+
+  long line_of(int number, const Residue& residue) const override {
+    const GroModel& model = at(number);
+    for (const GroAtom& atom : model.atoms) {
+      if (atom.residue_number == residue.number && atom.residue_name() == residue.name &&
+          chain_name(model, atom.chain) == residue.chain)
+        return atom.line;
+    }
+    return 0;
+  }
+
+  Molecule read(const StructureOptions& options) const override {
+    if (!options.assembly.empty())
+      throw InputError(file_.path + ": is a GRO file, which describes no assemblies; leave " + option("assembly") +
+                       " out, or give the PDB or mmCIF entry");
+    const GroModel& model = at(options.model);
+    MoleculeBuilder builder(file_.path, options);
+    builder.reserve(model.atoms.size());
+    for (const GroAtom& atom : model.atoms) {
+      AtomEntry entry;
+      entry.residue_name = atom.residue_name();
+      if (!builder.wants(entry.residue_name, false)) continue;
+      entry.name = atom.name();
+      entry.chain = chain_name(model, atom.chain);
+      entry.residue_number = atom.residue_number;
+      entry.position = read_position(file_.path, atom);
+      entry.line = atom.line;
+      builder.add(entry);
+    }
+    return builder.finish();
+  }
+
+ private:
+  const GroModel& at(int model) const {
+    if (model >= 1 && model <= n_models()) return models_[static_cast<std::size_t>(model - 1)];
+    throw InputError(file_.path + ": there is no model " + std::to_string(model) + "; the file has " +
+                     std::to_string(n_models()));
+  }
+
+  /// A title, the number of atoms, their lines, and the box.
+  GroModel next_model(Lines& lines) const {
+    GroModel model;
+    lines.next();
+    const std::string_view count = trimmed(lines.next());
+    long long n = 0;
+    if (!parse_integer(count, n) || n < 0 || n > static_cast<long long>(kMostAtoms))
+      throw FormatError(file_.path, lines.number,
+                        "the number of atoms in a GRO file is " + in_quotes(count) + "; an integer of at most " +
+                            std::to_string(kMostAtoms) + " below the title was expected");
+    const auto require_line = [&](long long n_read) {
+      if (lines.rest.empty())
+        throw FormatError(file_.path, lines.number,
+                          "the file ends after " + std::to_string(n_read) + " atoms, and " + std::to_string(n) +
+                              " atoms and a box were expected: it seems to be cut; write it again");
+    };
+    for (long long i = 0; i < n; ++i) {
+      require_line(i);
+      const std::string_view text = lines.next();
+      model.atoms.push_back(read_names(file_.path, text, lines.number));
+    }
+    require_line(n);
+    model.box = trimmed(lines.next());
+    model.box_line = lines.number;
+    set_chains(model);
+    return model;
+  }
+
+  FileContent file_;
+  std::vector<GroModel> models_;  // they point into the content
+};
+
+}  // namespace
+
+StructureFormat gro_format() {
+  return {"GRO", [](std::string_view, FileKind kind) { return kind == FileKind::kGro; },
+          [](FileContent file) -> std::unique_ptr<StructureModels> {
+            return std::make_unique<GroModels>(std::move(file));
+          }};
+}
+
+}  // namespace espdiff
