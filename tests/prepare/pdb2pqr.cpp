@@ -218,6 +218,41 @@ TEST_CASE("prepare_molecule: a missing loop is listed, its ends stay uncharged; 
   }
 }
 
+TEST_CASE("prepare_molecule: hydrogens under names that PDB2PQR does not know are placed anew, and a note says so") {
+  const std::string text = lysozyme(1, 30);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  // All heavy atoms are there: where some are missing, PDB2PQR drops what it does not know.
+  Molecule whole = prepare(read(folder, text)).molecule;
+  whole.charges.assign(whole.size(), 0);
+  whole.name = "whole.pdb";
+  const Prepared plain = prepare(whole);
+  std::size_t n_hydrogens = 0;
+  std::string first;
+  for (Atom& atom : whole.atoms) {
+    if (atom.element != "H") continue;
+    atom.name = "H" + std::to_string(100 + n_hydrogens++ % 30);
+    if (first.empty()) first = atom.name;
+  }
+  const Prepared odd = prepare(whole);
+  CHECK(odd.molecule.charges == plain.molecule.charges);
+  CHECK(odd.molecule.positions == plain.molecule.positions);
+  REQUIRE(odd.preparation.notes.size() == 1);
+  CHECK(odd.preparation.notes[0] == "the file's " + std::to_string(n_hydrogens) +
+                                        " hydrogens were placed anew, since PDB2PQR does not know " + first +
+                                        " of MET 1 of chain A; PROPKA decides the protonation");
+  // A heavy atom is not dropped.
+  whole.atoms.back().name = "XX9";
+  whole.atoms.back().element = "C";
+  const std::string last = std::to_string(whole.residues.back().number);
+  CHECK(message_of([&] { prepare(whole); })
+            .find("whole.pdb: has no charges, and PDB2PQR cannot prepare it: XX9 of " + whole.residues.back().name +
+                  " " + last +
+                  " of chain A is none of its residue's atoms by this name; name it as the PDB does, leave it out "
+                  "(leave-out //A/" +
+                  last + "/XX9), or give charges") == 0);
+}
+
 TEST_CASE("prepare_molecule: of alternate locations the better occupied one is charged") {
   const std::string text = lysozyme(1, 20);
   if (text.empty() || !has_pdb2pqr()) return;
@@ -326,7 +361,7 @@ TEST_CASE("prepare_molecule: the program gets fixed names in a folder of its own
   program("echo 'WARNING:Unable to find amino or nucleic acid definition for ZN. Parsing as new residue.'; exit 1");
   CHECK(message_of([&] { prepare(molecule); }).find(unknown) != std::string::npos);
   program("echo 'Unable to debump biomolecule. Found gap in biomolecule structure for atom HZ3 LYN'; exit 1");
-  CHECK(message_of([&] { prepare(molecule); }).find("it: a hydrogen of the file is none of its residue") !=
+  CHECK(message_of([&] { prepare(molecule); }).find("it: an atom of the file is none of its residue's atoms") !=
         std::string::npos);
   program("truncate -s 600M output.pqr; sleep 60");
   CHECK(message_of([&] { prepare(molecule); }).find("PDB2PQR wrote more than 512 MB and was ended") !=

@@ -132,6 +132,24 @@ void name_neutral_acids(Molecule& molecule, Preparation& preparation) {
   if (std::find(keep.begin(), keep.end(), false) != keep.end()) molecule = keep_atoms(molecule, keep);
 }
 
+/// GROMACS gives groups whose hydrogens are virtual sites their mass at places that are no atoms: MN1, MNZ2, MCB1.
+void drop_mass_centres(Molecule& molecule, Preparation& preparation) {
+  std::vector<bool> keep;
+  std::string first;
+  for (const Atom& atom : molecule.atoms) {
+    const Residue& residue = molecule.residues[static_cast<std::size_t>(atom.residue)];
+    keep.push_back(!atom.element.empty() || atom.name.size() < 3 || atom.name.front() != 'M' ||
+                   !is_known_amino_acid(residue.name));
+    if (!keep.back() && first.empty()) first = atom.name + " of " + residue_in_words(residue);
+  }
+  const auto n_dropped = std::count(keep.begin(), keep.end(), false);
+  if (n_dropped == 0) return;
+  molecule = keep_atoms(molecule, keep);
+  preparation.notes.push_back(std::to_string(n_dropped) +
+                              " mass centres of GROMACS, which are no atoms and have no charge, were left out (first " +
+                              first + ")");
+}
+
 /// GROMACS names the oxygens at the end of a chain O1 and O2 (GROMOS, OPLS), or OC1 and OC2 (AMBER).
 void name_end_oxygens(Molecule& molecule) {
   constexpr std::pair<const char*, const char*> kNames[] = {{"O1", "O2"}, {"OC1", "OC2"}};
@@ -307,6 +325,7 @@ void rename_residues(Molecule& molecule, Preparation& preparation) {
   replace_selenomethionine(molecule, preparation);
   name_charged_residues(molecule, preparation);
   name_nucleotides(molecule, preparation);
+  drop_mass_centres(molecule, preparation);
   name_neutral_acids(molecule, preparation);
   name_end_oxygens(molecule);
   name_caps(molecule, preparation);

@@ -16,8 +16,8 @@ struct Preparation;
 /// the charged residues of Insight II (AR+, LY+, AS-, GL-) those of the PDB; nucleotides of CHARMM (ADE) and
 /// deoxynucleotides under the names of RNA, as in files of before 2007, those of their sugar; ASP and GLU with a proton
 /// at the carboxyl group are ASH and GLH, and lose it, since PDB2PQR places it; caps as by name_caps(); GROMACS' O1 and
-/// O2 at the end of a chain are O and OXT. Drops the phosphate at the 5' end of a chain, with a warning: no force field
-/// has one.
+/// O2 at the end of a chain are O and OXT. Drops GROMACS' mass centres of virtual sites, with a note, and the phosphate
+/// at the 5' end of a chain, with a warning: no force field has one.
 void rename_residues(Molecule& molecule, Preparation& preparation);
 
 /// Where the charges of an amino acid come from: kNone for those that the force fields have. kPhosphate for SEP, TPO

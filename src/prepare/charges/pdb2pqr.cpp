@@ -154,14 +154,8 @@ Molecule with_left_out_groups(const Molecule& molecule) {
   return whole;
 }
 
-/// The PDB file that PDB2PQR reads.
-std::string pdb_text(Molecule molecule, const Renumbering& renumbering, const std::vector<std::string>& states) {
-  molecule.residues = renumbering.residues();
-  for (std::size_t r = 0; r < states.size(); ++r) {
-    // Disulfides follow from the geometry.
-    if (!states[r].empty() && states[r] != "CYX" && states[r] != "CYS") molecule.residues[r].name = states[r];
-  }
-  // Atoms of a residue follow each other, also the hydrogens that a ligand got.
+/// Atoms of a residue follow each other, also the hydrogens that a ligand got.
+Molecule by_residue(const Molecule& molecule) {
   std::vector<std::size_t> order(molecule.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -173,8 +167,18 @@ std::string pdb_text(Molecule molecule, const Renumbering& renumbering, const st
     sorted.atoms.push_back(molecule.atoms[i]);
     sorted.positions.push_back(molecule.positions[i]);
   }
+  return sorted;
+}
+
+/// The PDB file that PDB2PQR reads.
+std::string pdb_text(Molecule molecule, const Renumbering& renumbering, const std::vector<std::string>& states) {
+  molecule.residues = renumbering.residues();
+  for (std::size_t r = 0; r < states.size(); ++r) {
+    // Disulfides follow from the geometry.
+    if (!states[r].empty() && states[r] != "CYX" && states[r] != "CYS") molecule.residues[r].name = states[r];
+  }
   std::ostringstream text;
-  write_pdb(text, sorted, std::vector<double>(sorted.size(), 0), {});
+  write_pdb(text, molecule, std::vector<double>(molecule.size(), 0), {});
   return text.str();
 }
 
@@ -205,7 +209,45 @@ struct PropkaError : InputError {
   using InputError::InputError;
 };
 
-constexpr const char* kPropkaMark = "does not seem to contain any";
+/// A residue has an atom by a name that PDB2PQR does not know.
+struct UnknownAtomError : UnchargedError {
+  using UnchargedError::UnchargedError;
+  std::string atom = "all their names";  ///< "HX1 of TYR 2 of chain B", where the log names it
+};
+
+constexpr const char *kPropkaMark = "does not seem to contain any", *kUnknownAtomMark = "Found gap";
+
+/// The atom that a log says it knows no bond of, in a record of the PDB file, whose numbers have five digits.
+std::optional<std::size_t> unknown_atom(const std::string& log, const Molecule& given) {
+  const std::string before = "for atom ";
+  constexpr std::size_t kSerial = 6, kName = 12, kEnd = 16, kSerials = 100000;
+  const std::size_t at = log.find(before, log.find(kUnknownAtomMark));
+  if (at == std::string::npos || log.size() < at + before.size() + kEnd) return std::nullopt;
+  const std::string record = log.substr(at + before.size(), kEnd);
+  std::string name = record.substr(kName);
+  name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
+  const long serial = std::strtol(record.substr(kSerial, kName - kSerial - 1).c_str(), nullptr, 10);
+  for (auto i = static_cast<std::size_t>(std::max(serial - 1, 0L)); i < given.size(); i += kSerials) {
+    if (given.atoms[i].name == name) return i;
+  }
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse_unknown_atom(const std::string& log, const Molecule& given) {
+  const std::optional<std::size_t> atom = unknown_atom(log, given);
+  const Residue residue = atom ? given.residues[static_cast<std::size_t>(given.atoms[*atom].residue)] : Residue();
+  const std::string selection = atom ? atom_selection(residue, {given.atoms[*atom].name}) : "(...)",
+                    name = atom ? given.atoms[*atom].name + " of " + residue_in_words(residue) : "an atom of the file";
+  Message remedy = "; name it as the PDB does, leave it out (" + option("leave-out", selection) +
+                   "), or give charges (" + option("topology", "FILE") + " of a PSF or prmtop, or a PQR)";
+  if (atom) remedy.set_next({"", {{"leave-out", selection}}});
+  UnknownAtomError error(
+      given.name,
+      "has no charges, and PDB2PQR cannot prepare it: " + name + " is none of its residue's atoms by this name", remedy,
+      residue);
+  if (atom) error.atom = name;
+  throw error;
+}
 
 /// The reason in a log, in our words. A text that is not known may name files that are gone, and is not passed on.
 std::string reason_in(const std::string& log) {
@@ -215,7 +257,6 @@ std::string reason_in(const std::string& log) {
       {"Unknown format code 'i'", "more than a tenth of the heavy atoms of its residues are missing"},
       {"missing too many", "more than a tenth of the heavy atoms of its residues are missing"},
       {"does not contain any", "no residue of it is known to the force field"},
-      {"Found gap", "a hydrogen of the file is none of its residue by this name"},
       {"Unable to debump", "atoms overlap, and moving them apart failed"},
       {"while trying to debump", "atoms overlap, and moving them apart failed"},
       {"Too many chains", "it has more chains than PDB2PQR has names for"},
@@ -238,7 +279,8 @@ std::string version_in(const std::string& log) {
 }
 
 /// Runs the program. The output's first line is a remark with the program's version.
-std::string run_pdb2pqr(const std::string& program, const std::string& name, const std::string& pdb,
+/// @param given the atoms of the PDB file, in its order
+std::string run_pdb2pqr(const std::string& program, const Molecule& given, const std::string& pdb,
                         const std::string& ligand, const std::vector<std::string>& options, const Progress& progress) {
   const TemporaryFolder folder;
   ProgramCall call;
@@ -253,13 +295,15 @@ std::string run_pdb2pqr(const std::string& program, const std::string& name, con
     std::error_code missing;
     const auto n_bytes = std::filesystem::file_size(folder.file("output.pqr"), missing);
     if (!missing && n_bytes > kMostBytes)
-      throw DeviceError(name + ": PDB2PQR wrote more than " + std::to_string(kMostBytes >> 20) + " MB and was ended");
+      throw DeviceError(given.name + ": PDB2PQR wrote more than " + std::to_string(kMostBytes >> 20) +
+                        " MB and was ended");
   };
   const ProgramResult result = run_program(call);
   std::error_code ignored;
   const std::string log = result.output + result.messages;
   if (result.status != 0 || !std::filesystem::exists(folder.file("output.pqr"), ignored)) {
-    const Message text = name + ": has no charges, and PDB2PQR cannot prepare it: " + reason_in(log) +
+    if (log.find(kUnknownAtomMark) != std::string::npos) refuse_unknown_atom(log, given);
+    const Message text = given.name + ": has no charges, and PDB2PQR cannot prepare it: " + reason_in(log) +
                          "; complete or mend the structure, leave atoms out (" + option("leave-out", "(...)") +
                          "), or give charges (" + option("topology", "FILE") + " of a PSF or prmtop, or a PQR)";
     if (log.find(kPropkaMark) != std::string::npos) throw PropkaError(text);
@@ -385,7 +429,7 @@ class Run {
 
  private:
   Molecule run_once(const Molecule& molecule, const std::vector<std::string>& states, const std::string& ligand) {
-    const Molecule whole = with_left_out_groups(molecule);
+    const Molecule whole = by_residue(with_left_out_groups(molecule));
     const Renumbering renumbering(whole);
     const std::string pdb = pdb_text(whole, renumbering, states);
     std::string key = "1 " + identity_of(program_);
@@ -394,7 +438,7 @@ class Run {
     std::optional<std::string> output = options_.use_cache ? find_in_cache(key) : std::nullopt;
     if (!output) {
       all_from_cache_ = false;
-      output = run_pdb2pqr(program_, molecule.name, pdb, ligand, words_, progress_);
+      output = run_pdb2pqr(program_, whole, pdb, ligand, words_, progress_);
       if (options_.use_cache) keep_in_cache(key, *output);
     }
     const std::size_t begin = std::string("REMARK ").size();
@@ -576,13 +620,26 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   Run run(program, options, done.force_field, with_propka, progress);
   const Molecule chains = set_aside(before, sources, kept_states);
   const Molecule given = add_ligand_hydrogens(chains, ligands, ligands_of_residues(chains, ligands));
+  const auto run_on = [&](const Molecule& atoms) {
+    try {
+      return run_with_ligands(run, atoms, kept_states, ligands);
+    } catch (const PropkaError&) {
+      run.drop_propka(done.force_field);
+      done.propka = false;
+      done.notes.emplace_back("no PROPKA, which cannot use so short a chain: residues have their usual states at pH 7");
+      return run_with_ligands(run, atoms, kept_states, ligands);
+    }
+  };
   try {
-    prepared.molecule = run_with_ligands(run, given, kept_states, ligands);
-  } catch (const PropkaError&) {
-    run.drop_propka(done.force_field);
-    done.propka = false;
-    done.notes.emplace_back("no PROPKA, which cannot use so short a chain: residues have their usual states at pH 7");
-    prepared.molecule = run_with_ligands(run, given, kept_states, ligands);
+    prepared.molecule = run_on(given);
+  } catch (const UnknownAtomError& error) {
+    // PROPKA's run places all hydrogens anew, whatever their names. Protons of acids are in the residues' names.
+    const Molecule bare = without_water(given, true);
+    if (bare.size() == given.size()) throw;
+    prepared.molecule = run_on(bare);
+    done.notes.push_back("the file's " + std::to_string(given.size() - bare.size()) +
+                         " hydrogens were placed anew, since PDB2PQR does not know " + error.atom +
+                         (done.propka ? "; PROPKA decides the protonation" : ""));
   }
   for (const ClosedChain& chain : closed_chains(given)) {
     const std::string& name = given.residues[chain.front()].chain;

@@ -151,6 +151,13 @@ Message uncharged_remedy(const std::vector<Residue>& residues, const std::string
   return remedy.set_next(next);
 }
 
+std::string atom_selection(const Residue& residue, const std::vector<std::string>& names) {
+  std::string text = "//" + (residue.chain.empty() ? "*" : residue.chain) + "/" + std::to_string(residue.number);
+  if (residue.insertion_code != ' ') text += std::string(".") + residue.insertion_code;
+  for (const std::string& name : names) text += (&name == &names.front() ? "/" : ",") + name;
+  return text;
+}
+
 std::vector<std::string> chain_gaps(const Molecule& molecule) {
   constexpr double kLongest_A = 2.5;
   const auto atoms = atoms_of_residues(molecule);

@@ -67,6 +67,9 @@ struct Preparation {
 /// @throws UnchargedError naming atoms of `before` without a charge, with the ways on
 void compare_with_input(const Molecule& before, const Molecule& after, Preparation& preparation);
 
+/// Selects atoms of a residue: "//A/107/P,O1P".
+std::string atom_selection(const Residue& residue, const std::vector<std::string>& names);
+
 /// Whether PDB2PQR has charges for all names, as far as names tell: run before the program.
 /// @param sources [residue] where groups get their charges from otherwise
 /// @param ligand_of [residue] nonnegative where a MOL2 file has its charges
