@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -465,6 +466,51 @@ TEST_CASE("prepare_molecule: DNA under the names of before 2007 is prepared, thy
   CHECK(prepared.preparation.net_charge == doctest::Approx(-10).epsilon(1e-3));  // ten phosphates
   CHECK(prepared.preparation.renamed.size() == 11);
   CHECK_FALSE(prepared.preparation.propka);
+}
+
+TEST_CASE(
+    "prepare_molecule: a protein and DNA under one chain's name are prepared as two molecules, and a note says so") {
+  const std::string path = "/usr/share/doc/theseus/examples/1s40.pdb.gz";
+  if (!std::filesystem::exists(path) || !has_pdb2pqr()) return;
+  const Molecule apart = read_structure(path, {1, true, false, {}});
+  Molecule merged = apart;
+  std::int32_t number = 99;  // which the protein has, too
+  for (Residue& residue : merged.residues) {
+    if (residue.chain == "B") residue.number = ++number;
+    residue.chain = "A";
+  }
+  const Prepared two = prepare(apart), one = prepare(merged);
+  CHECK(one.molecule.charges == two.molecule.charges);
+  CHECK(one.preparation.added == two.preparation.added);
+  CHECK(one.preparation.n_hydrogens_added == two.preparation.n_hydrogens_added);
+  CHECK(one.preparation.net_charge == doctest::Approx(std::round(one.preparation.net_charge)).epsilon(1e-4));
+  REQUIRE(one.preparation.notes.size() == two.preparation.notes.size() + 1);
+  CHECK(one.preparation.notes.back() ==
+        "chain A has 2 molecules, each with ends of its own; those after the first begin with DG 100 of chain A");
+  // A ligand has no molecule of its own, and a chain of one has one.
+  CHECK(pieces_of_chains(apart) == std::vector<std::size_t>(apart.residues.size(), 0));
+  CHECK(pieces_of_chains(merged).back() == 1);
+}
+
+TEST_CASE("pieces_of_chains: nucleotides that are not bound begin anew, one without its phosphate is bound") {
+  Molecule dna;
+  const auto add = [&](int number, double x, bool has_phosphate) {
+    dna.residues.push_back({"DA", "A", number, ' '});
+    for (const auto& [name, at] : {std::pair("P", 0.0), {"O5'", 1.5}, {"O3'", 4.0}}) {
+      if (name == std::string("P") && !has_phosphate) continue;
+      Atom atom;
+      atom.name = name;
+      atom.residue = static_cast<std::int32_t>(dna.residues.size() - 1);
+      dna.atoms.push_back(atom);
+      dna.positions.push_back({x + at, 0, 0});
+    }
+  };
+  add(1, 0, false);
+  add(2, 5.6, true);
+  add(3, 11.2, false);
+  add(14, 40, true);
+  add(15, 60, false);
+  CHECK(pieces_of_chains(dna) == std::vector<std::size_t>{0, 0, 0, 1, 2});
 }
 
 TEST_CASE("force_field_for: AMBER where there are nucleotides, one force field for both states") {

@@ -443,6 +443,7 @@ void restore_residues(Molecule& prepared, const Molecule& before, const std::vec
   }
   if (of_before.empty()) return;
   for (std::size_t r = 0; r < modified.residues.size(); ++r) of_modified[key_of(modified.residues[r])] = r;
+  const Molecule known = with_known_residues(before, sources);
   const auto atoms = atoms_of_residues(prepared), atoms_before = atoms_of_residues(before),
              atoms_modified = atoms_of_residues(modified);
   Molecule restored;
@@ -451,7 +452,10 @@ void restore_residues(Molecule& prepared, const Molecule& before, const std::vec
   restored.left_out = prepared.left_out;
   for (std::size_t r = 0; r < prepared.residues.size(); ++r) {
     Molecule one = residue_alone(prepared, r, atoms[r]);
-    const auto found = of_before.find(key_of(prepared.residues[r]));
+    auto found = of_before.find(key_of(prepared.residues[r]));
+    // Another molecule under the chain's name may have the number.
+    if (found != of_before.end() && prepared.residues[r].name != known.residues[found->second].name)
+      found = of_before.end();
     if (found != of_before.end() && sources[found->second] == GroupSource::kPhosphate) {
       const std::size_t b = found->second;
       add_phosphate(one, residue_alone(before, b, atoms_before[b]), *phosphorylated(before.residues[b].name));

@@ -45,30 +45,32 @@ constexpr double kTimeLimitSeconds = 3600;
 /// Of the file it writes: a line for each of the most atoms that are read.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{512} << 20;
 
-/// Chains with one character for PDB2PQR, and numbers that fit its columns.
+/// Chains with one character for PDB2PQR, a character for each of their pieces, and numbers that fit its columns.
 class Renumbering {
  public:
   explicit Renumbering(const Molecule& molecule) : original_(molecule.residues) {
     const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
-    std::map<std::string, char> names;
+    const std::vector<std::size_t> pieces = pieces_of_chains(molecule);
+    std::map<std::pair<std::string, std::size_t>, char> names;
     std::set<char> taken;
     std::set<std::string> renumbered;
     for (const Residue& residue : original_) {
       constexpr std::int32_t kLow = -999, kHigh = 9999;
       if (residue.insertion_code != ' ' || residue.number < kLow || residue.number > kHigh)
         renumbered.insert(residue.chain);
-      if (residue.chain.size() == 1 && names.emplace(residue.chain, residue.chain[0]).second)
+      if (residue.chain.size() == 1 && names.emplace(std::pair(residue.chain, 0), residue.chain[0]).second)
         taken.insert(residue.chain[0]);
     }
-    for (const Residue& residue : original_) {
-      if (names.count(residue.chain) > 0) continue;
+    for (std::size_t r = 0; r < original_.size(); ++r) {
+      const std::pair piece(original_[r].chain, pieces[r]);
+      if (names.count(piece) > 0) continue;
       const auto free =
           std::find_if(letters.begin(), letters.end(), [&](char letter) { return taken.count(letter) == 0; });
       if (free == letters.end())
         throw InputError(molecule.name +
                          ": has more than 62 chains, which a PDB file cannot distinguish; select some (" +
                          option("select", "//A") + ")");
-      names[residue.chain] = *free;
+      names[piece] = *free;
       taken.insert(*free);
     }
     std::map<std::string, std::int32_t> last;
@@ -78,10 +80,8 @@ class Renumbering {
         residue.number = ++last[residue.chain];
         residue.insertion_code = ' ';
       }
-      residue.chain = std::string(1, names.at(residue.chain));
-      if (!index_.emplace(std::tuple(residue.chain, residue.number), r).second &&
-          renumbered.count(original_[r].chain) == 0)
-        doubled_.insert(original_[r].number);
+      residue.chain = std::string(1, names.at({residue.chain, pieces[r]}));
+      index_.emplace(std::tuple(residue.chain, residue.number), r);
       residues_.push_back(residue);
     }
   }
@@ -98,7 +98,6 @@ class Renumbering {
   const std::vector<Residue> original_;
   std::vector<Residue> residues_;
   std::map<std::tuple<std::string, std::int32_t>, std::size_t> index_;
-  std::set<std::int32_t> doubled_;
 };
 
 /// The molecule without water and, where states are given, without the hydrogens of chains, which are added again.
@@ -563,6 +562,23 @@ Molecule set_aside(const Molecule& molecule, const std::vector<GroupSource>& sou
   return chains;
 }
 
+/// Chains that were several molecules to PDB2PQR.
+void note_pieces(const Molecule& molecule, std::vector<std::string>& notes) {
+  const std::vector<std::size_t> pieces = pieces_of_chains(molecule);
+  std::map<std::string, std::pair<std::size_t, std::string>> begins;  // of each chain: its pieces, and where they begin
+  for (std::size_t r = 0; r < pieces.size(); ++r) {
+    auto& [n, text] = begins[molecule.residues[r].chain];
+    if (pieces[r] == n) continue;
+    n = pieces[r];
+    text += (text.empty() ? "" : ", ") + residue_in_words(molecule.residues[r]);
+  }
+  for (const auto& [chain, begin] : begins) {
+    if (begin.first > 0)
+      notes.push_back((chain.empty() ? "the chain" : "chain " + chain) + " has " + std::to_string(begin.first + 1) +
+                      " molecules, each with ends of its own; those after the first begin with " + begin.second);
+  }
+}
+
 }  // namespace
 
 void require_charges(const Molecule& molecule, const ChargeOptions& options) {
@@ -645,6 +661,7 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
     const std::string& name = given.residues[chain.front()].chain;
     done.notes.push_back((name.empty() ? "the chain" : "chain " + name) + " is closed, and gets no charged ends");
   }
+  note_pieces(given, done.notes);
   restore_residues(prepared.molecule, before, sources, groups.modified);
   charge_caps(prepared.molecule, before, sources, groups.modified, done.force_field);
   append(prepared.molecule, groups.charged);

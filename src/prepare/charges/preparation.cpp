@@ -25,11 +25,16 @@ struct ResidueAtoms {
   std::size_t n_hydrogens = 0;
 };
 
-std::map<ResidueKey, ResidueAtoms> atoms_by_residue(const Molecule& molecule) {
-  std::map<ResidueKey, ResidueAtoms> all;
+/// Molecules under one chain's name can have numbers in common.
+std::pair<ResidueKey, char> key_with_letter(const Residue& residue) {
+  return {key_of(residue), residue_letter(residue.name)};
+}
+
+std::map<std::pair<ResidueKey, char>, ResidueAtoms> atoms_by_residue(const Molecule& molecule) {
+  std::map<std::pair<ResidueKey, char>, ResidueAtoms> all;
   for (const Atom& atom : molecule.atoms) {
     const Residue& residue = molecule.residues[static_cast<std::size_t>(atom.residue)];
-    ResidueAtoms& of = all[key_of(residue)];
+    ResidueAtoms& of = all[key_with_letter(residue)];
     if (is_hydrogen(atom)) {
       ++of.n_hydrogens;
       continue;
@@ -91,6 +96,14 @@ std::string name_selection(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "(" : ",") + name;
   return text + ")";
+}
+
+/// Null where there is no atom of the name.
+const Vec3d* position_of(const Molecule& molecule, const std::vector<std::size_t>& atoms, const char* name) {
+  for (const std::size_t i : atoms) {
+    if (normalized_atom_name(molecule.atoms[i].name) == name) return &molecule.positions[i];
+  }
+  return nullptr;
 }
 
 void add_protonation(const Molecule& after, Preparation& preparation) {
@@ -158,21 +171,50 @@ std::string atom_selection(const Residue& residue, const std::vector<std::string
   return text;
 }
 
+std::vector<std::size_t> pieces_of_chains(const Molecule& molecule) {
+  // Where the phosphate was left out, its place is between the oxygens.
+  constexpr double kLongestBond_A = 2.5, kLongestPhosphate_A = 4;
+  struct Last {
+    std::size_t residue = 0;
+    ResidueKind kind = ResidueKind::kOther;
+    std::size_t piece = 0;
+  };
+  const auto atoms = atoms_of_residues(molecule);
+  const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
+  const auto is_bound = [&](std::size_t before, std::size_t after) {
+    const Vec3d *const o3 = position_of(molecule, atoms[before], "O3'"),
+                       *const p = position_of(molecule, atoms[after], "P"),
+                       *const o5 = position_of(molecule, atoms[after], "O5'");
+    if (o3 == nullptr || (p == nullptr && o5 == nullptr)) return true;
+    return norm(*o3 - (p != nullptr ? *p : *o5)) <= (p != nullptr ? kLongestBond_A : kLongestPhosphate_A);
+  };
+  std::map<std::string, Last> chains;
+  std::vector<std::size_t> pieces;
+  for (std::size_t r = 0; r < kinds.size(); ++r) {
+    const std::string& name = molecule.residues[r].name;
+    const ResidueKind kind = is_cap_name(name)             ? ResidueKind::kAminoAcid
+                             : residue_letter(name) == '?' ? ResidueKind::kOther
+                                                           : kinds[r];
+    Last& last = chains[molecule.residues[r].chain];
+    if (kind != ResidueKind::kOther) {
+      const bool begins = last.kind != ResidueKind::kOther &&
+                          (kind != last.kind || (kind == ResidueKind::kNucleotide && !is_bound(last.residue, r)));
+      last = {r, kind, last.piece + (begins ? 1 : 0)};
+    }
+    pieces.push_back(last.piece);
+  }
+  return pieces;
+}
+
 std::vector<std::string> chain_gaps(const Molecule& molecule) {
   constexpr double kLongest_A = 2.5;
   const auto atoms = atoms_of_residues(molecule);
   const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
-  const auto position = [&](std::size_t residue, const char* name) -> const Vec3d* {
-    for (const std::size_t i : atoms[residue]) {
-      if (molecule.atoms[i].name == name) return &molecule.positions[i];
-    }
-    return nullptr;
-  };
   std::vector<std::string> gaps;
   for (std::size_t r = 0; r + 1 < molecule.residues.size(); ++r) {
     const Residue &a = molecule.residues[r], &b = molecule.residues[r + 1];
     if (a.chain != b.chain || kinds[r] != ResidueKind::kAminoAcid || kinds[r + 1] != ResidueKind::kAminoAcid) continue;
-    const Vec3d *const c = position(r, "C"), *const n = position(r + 1, "N");
+    const Vec3d *const c = position_of(molecule, atoms[r], "C"), *const n = position_of(molecule, atoms[r + 1], "N");
     if (c == nullptr || n == nullptr || norm(*c - *n) <= kLongest_A) continue;
     const auto short_name = [](const Residue& residue) {
       const std::string code = residue.insertion_code == ' ' ? "" : std::string(1, residue.insertion_code);
@@ -214,8 +256,8 @@ void compare_with_input(const Molecule& before, const Molecule& after, Preparati
   Uncharged uncharged;
   static const ResidueAtoms none;
   for (const Residue& residue : before.residues) {
-    const ResidueAtoms& given = of_before.at(key_of(residue));
-    const auto found = of_after.find(key_of(residue));
+    const ResidueAtoms& given = of_before.at(key_with_letter(residue));
+    const auto found = of_after.find(key_with_letter(residue));
     const ResidueAtoms& got = found == of_after.end() ? none : found->second;
     const char letter = residue_letter(residue.name);
     std::vector<std::string> missing = missing_in(given, got, letter), extra = missing_in(got, given, letter);
