@@ -302,6 +302,12 @@ TEST_CASE("rename_residues: CHARMM's nucleotides by their sugar, a protonated ac
   CHECK(molecule.size() == 17);  // without the proton, which PDB2PQR places at OD2
   CHECK(molecule.atoms[15].name == "O");
   CHECK(molecule.atoms[16].name == "OXT");
+  // A second oxygen at C, under any name; one of the side chain keeps its name.
+  molecule = molecule_from(row_of_names("SER", 5, {"N", "CA", "C", "O", "OG"}) +
+                           record(6, " O01", "SER", 5, {3.0, 1.2, 15.0}, "O"));
+  rename_residues(molecule, preparation);
+  CHECK(molecule.atoms[4].name == "OG");
+  CHECK(molecule.atoms[5].name == "OXT");
 }
 
 TEST_CASE("rename_residues: GROMACS' mass centres of virtual sites are left out with a note, metals stay") {

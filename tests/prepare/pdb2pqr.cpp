@@ -19,6 +19,7 @@
 #include "io/molecules/write_pqr.h"
 #include "io/structures/structure_file.h"
 #include "prepare/charges/cache.h"
+#include "prepare/charges/open_babel.h"
 #include "prepare/charges/separate_atoms.h"
 #include "prepare/load_state.h"
 #include "support/test_data.h"
@@ -245,13 +246,16 @@ TEST_CASE("prepare_molecule: hydrogens under names that PDB2PQR does not know ar
   // A heavy atom is not dropped.
   whole.atoms.back().name = "XX9";
   whole.atoms.back().element = "C";
-  const std::string last = std::to_string(whole.residues.back().number);
-  CHECK(message_of([&] { prepare(whole); })
-            .find("whole.pdb: has no charges, and PDB2PQR cannot prepare it: XX9 of " + whole.residues.back().name +
-                  " " + last +
-                  " of chain A is none of its residue's atoms by this name; name it as the PDB does, leave it out "
-                  "(leave-out //A/" +
-                  last + "/XX9), or give charges") == 0);
+  ChargeOptions options = without_cache();
+  options.force_field = "charmm";
+  options.ligands_auto = false;
+  const Residue& last = whole.residues.back();
+  const std::string number = std::to_string(last.number);
+  CHECK(message_of([&] { prepare_molecule(whole, options, {}, Progress()); }) ==
+        "whole.pdb: has no charges, and PDB2PQR cannot prepare it: XX9 of " + last.name + " " + number +
+            " of chain A is none of its residue's atoms by this name; name it as the PDB does, leave it out (leave-out "
+            "//A/" +
+            number + "/XX9), or give charges (topology FILE of a PSF or prmtop, or a PQR)");
 }
 
 TEST_CASE("prepare_molecule: of alternate locations the better occupied one is charged") {
@@ -453,6 +457,49 @@ TEST_CASE("prepare_molecule: a name without charges is found before the program 
   unsetenv("ESPDIFF_PDB2PQR");
   unsetenv("ESPDIFF_OBABEL");
   CHECK_FALSE(std::filesystem::exists(folder.file("ran")));
+}
+
+TEST_CASE(
+    "prepare_molecule: an amino acid with atoms that its name does not have is charged as a modified one, or named") {
+  const std::string text = lysozyme(1, 30);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  // 4-fluorophenylalanine under the name of phenylalanine.
+  Molecule molecule = read(folder, text);
+  const auto residue = static_cast<std::size_t>(std::find_if(molecule.residues.begin(), molecule.residues.end(),
+                                                             [](const Residue& r) { return r.name == "PHE"; }) -
+                                                molecule.residues.begin());
+  const std::string label = "PHE " + std::to_string(molecule.residues[residue].number) + " of chain A";
+  Vec3d cz{}, cg{};
+  for (std::size_t i = 0; i < molecule.size(); ++i) {
+    if (static_cast<std::size_t>(molecule.atoms[i].residue) != residue) continue;
+    if (molecule.atoms[i].name == "CZ") cz = molecule.positions[i];
+    if (molecule.atoms[i].name == "CG") cg = molecule.positions[i];
+  }
+  constexpr double kBond_A = 1.35;
+  Atom fluorine;
+  fluorine.name = fluorine.element = "F";
+  fluorine.residue = static_cast<std::int32_t>(residue);
+  molecule.atoms.push_back(fluorine);
+  molecule.positions.push_back(cz + kBond_A / norm(cz - cg) * (cz - cg));
+  molecule.radii.push_back(0);
+  ChargeOptions files = without_cache();
+  files.ligands_auto = false;
+  const std::string selection = "//A/" + std::to_string(molecule.residues[residue].number) + "/F";
+  CHECK(message_of([&] { prepare_molecule(molecule, files, {}, Progress()); })
+            .find("in.pdb: 1 atom gets no charge from PDB2PQR's force field parse: " + label +
+                  " (first atom F); let Open Babel make them") == 0);
+  CHECK(message_of([&] { prepare_molecule(molecule, files, {}, Progress()); })
+            .find("charges for all atoms (topology FILE, charges-from FILE or a PQR), or drop them (leave-out " +
+                  selection + ")") != std::string::npos);
+  if (find_open_babel().empty()) return;
+  const Prepared prepared = prepare(molecule);
+  CHECK(prepared.preparation.groups ==
+        std::vector<std::string>{label +
+                                 ": +0 e, in its chain, by Open Babel (Gasteiger's charges, pH 7), since PHE has "
+                                 "no F"});
+  CHECK(prepared.preparation.net_charge ==
+        doctest::Approx(prepare(read(folder, text)).preparation.net_charge).epsilon(1e-4));
 }
 
 TEST_CASE("prepare_molecule: DNA under the names of before 2007 is prepared, thymine's methyl group too") {

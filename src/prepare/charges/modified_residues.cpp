@@ -150,12 +150,23 @@ void drop_mass_centres(Molecule& molecule, Preparation& preparation) {
                               first + ")");
 }
 
-/// GROMACS names the oxygens at the end of a chain O1 and O2 (GROMOS, OPLS), or OC1 and OC2 (AMBER).
+/// GROMACS names the oxygens at the end of a chain O1 and O2 (GROMOS, OPLS), or OC1 and OC2 (AMBER). Whatever the name,
+/// a second oxygen at C is OXT.
 void name_end_oxygens(Molecule& molecule) {
+  constexpr double kBond_A = 1.5;
   constexpr std::pair<const char*, const char*> kNames[] = {{"O1", "O2"}, {"OC1", "OC2"}};
   const auto atoms = atoms_of_residues(molecule);
   for (std::size_t r = 0; r < atoms.size(); ++r) {
-    if (!is_known_amino_acid(molecule.residues[r].name) || atom_named(molecule, atoms[r], "O")) continue;
+    if (!is_known_amino_acid(molecule.residues[r].name)) continue;
+    if (atom_named(molecule, atoms[r], "O")) {
+      const std::optional<std::size_t> c = atom_named(molecule, atoms[r], "C");
+      for (const std::size_t i : atoms[r]) {
+        if (c && molecule.atoms[i].element == "O" && normalized_atom_name(molecule.atoms[i].name) != "O" &&
+            norm(molecule.positions[i] - molecule.positions[*c]) < kBond_A)
+          molecule.atoms[i].name = "OXT";
+      }
+      continue;
+    }
     for (const auto& [first, second] : kNames) {
       const auto o = atom_named(molecule, atoms[r], first), oxt = atom_named(molecule, atoms[r], second);
       if (!o || !oxt) continue;
@@ -339,6 +350,19 @@ bool is_known_amino_acid(const std::string& name) {
   return letter >= 'A' && letter <= 'Z' && modified.count(name) == 0;
 }
 
+std::vector<std::string> foreign_atoms(const Molecule& molecule, std::size_t residue,
+                                       const std::vector<std::size_t>& atoms) {
+  std::vector<std::string> foreign;
+  if (!is_known_amino_acid(molecule.residues[residue].name)) return foreign;
+  const char letter = residue_letter(molecule.residues[residue].name);
+  for (const std::size_t i : atoms) {
+    const Atom& atom = molecule.atoms[i];
+    if (!is_proton(atom) && !is_heavy_atom_of(letter, normalized_atom_name(atom.name, letter)))
+      foreign.push_back(atom.name);
+  }
+  return foreign;
+}
+
 GroupSource amino_acid_source(const Molecule& molecule, std::size_t residue, const std::vector<std::size_t>& atoms,
                               bool ligands_auto) {
   constexpr std::size_t kFewestPlaced = 3, kPhosphateAtoms = 4;
@@ -351,7 +375,7 @@ GroupSource amino_acid_source(const Molecule& molecule, std::size_t residue, con
     return backbone.count(molecule.atoms[i].name) > 0;
   });
   if (n_placed < kFewestPlaced) return GroupSource::kTorn;
-  if (is_known_amino_acid(name)) return GroupSource::kNone;
+  if (is_known_amino_acid(name) && foreign_atoms(molecule, residue, atoms).empty()) return GroupSource::kNone;
   const std::size_t n_phosphate = count_if([&](std::size_t i) { return is_phosphate_atom(molecule.atoms[i]); });
   if (phosphorylated(name) != nullptr && n_phosphate == kPhosphateAtoms) return GroupSource::kPhosphate;
   return ligands_auto ? GroupSource::kModified : GroupSource::kNone;

@@ -63,14 +63,15 @@ std::vector<std::string> missing_in(const ResidueAtoms& a, const ResidueAtoms& b
 /// Atoms without charge, by residue.
 struct Uncharged {
   std::vector<std::string> in_words;
-  std::vector<Residue> residues;
+  std::vector<UnchargedResidue> residues;
   std::size_t n_atoms = 0;
   std::string first_atom;
 
-  void add(const Residue& residue, const std::vector<std::string>& atoms) {
+  /// @param is_whole whether no atom of the residue gets a charge
+  void add(const Residue& residue, const std::vector<std::string>& atoms, bool is_whole, bool can_be_made) {
     if (n_atoms == 0) first_atom = atoms.front();
     in_words.push_back(residue_in_words(residue));
-    residues.push_back(residue);
+    residues.push_back({residue, is_whole ? std::vector<std::string>() : atoms, can_be_made});
     n_atoms += atoms.size();
   }
 };
@@ -92,11 +93,32 @@ bool has_nucleotides(const std::string& force_field) {
 }
 
 /// "(AP5,SO4)"
-std::string name_selection(const std::vector<std::string>& names) {
+std::string name_selection(const std::set<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "(" : ",") + name;
   return text + ")";
 }
+
+/// What --leave-out is to drop: ligands and ions by name, of usual residues, which have their name in common with
+/// others, only what gets no charge.
+struct Selected {
+  std::set<std::string> names, all_names;
+  std::string atoms;
+  std::size_t n = 0;
+
+  void add(const UnchargedResidue& residue, bool is_usual) {
+    ++n;
+    all_names.insert(residue.name);
+    if (is_usual)
+      atoms += (atoms.empty() ? "" : " ") + atom_selection(residue, residue.atoms);
+    else
+      names.insert(residue.name);
+  }
+  std::string selection() const {
+    const std::string by_name = names.empty() ? "" : name_selection(names);
+    return by_name + (by_name.empty() || atoms.empty() ? "" : " ") + atoms;
+  }
+};
 
 /// Null where there is no atom of the name.
 const Vec3d* position_of(const Molecule& molecule, const std::vector<std::size_t>& atoms, const char* name) {
@@ -108,8 +130,9 @@ const Vec3d* position_of(const Molecule& molecule, const std::vector<std::size_t
 
 void add_protonation(const Molecule& after, Preparation& preparation) {
   const std::vector<std::string> states = protonation_states(after);
+  const auto atoms = atoms_of_residues(after);
   for (std::size_t r = 0; r < states.size(); ++r) {
-    if (!is_known_amino_acid(after.residues[r].name)) continue;
+    if (!is_known_amino_acid(after.residues[r].name) || !foreign_atoms(after, r, atoms[r]).empty()) continue;
     const std::string meaning = describe_protonation(states[r]);
     const bool is_histidine = states[r] == "HID" || states[r] == "HIE";
     if (meaning.empty() && !is_histidine) continue;
@@ -120,28 +143,29 @@ void add_protonation(const Molecule& after, Preparation& preparation) {
 
 }  // namespace
 
-Message uncharged_remedy(const std::vector<Residue>& residues, const std::string& force_field) {
-  std::set<std::string> ligands, of_chains;
-  bool all_nucleotides = !has_nucleotides(force_field);
-  for (const Residue& residue : residues) {
+Message uncharged_remedy(const std::vector<UnchargedResidue>& residues, const std::string& force_field) {
+  Selected all, others;  // those that Open Babel cannot make
+  bool all_nucleotides = !has_nucleotides(force_field), any_usual = false;
+  for (const UnchargedResidue& residue : residues) {
     const char letter = residue_letter(residue.name);
-    const bool is_nucleotide = letter >= 'a' && letter <= 'z';
-    const bool can_be_made = !is_nucleotide && !is_known_amino_acid(residue.name) && !is_ion_name(residue.name);
-    (can_be_made ? ligands : of_chains).insert(residue.name);
+    const bool is_nucleotide = letter >= 'a' && letter <= 'z',
+               is_usual = is_nucleotide || is_known_amino_acid(residue.name);
     all_nucleotides = all_nucleotides && is_nucleotide;
+    all.add(residue, is_usual);
+    if (residue.can_be_made || (!is_usual && !is_ion_name(residue.name))) continue;
+    others.add(residue, is_usual);
+    any_usual = any_usual || is_usual;
   }
   if (all_nucleotides) {
     const Message amber = option("force-field", "amber");
     return Message("; take a force field that has nucleotides (" + amber + "), or drop them (" +
-                   option("leave-out", name_selection({of_chains.begin(), of_chains.end()})) + ")")
+                   option("leave-out", name_selection(all.all_names)) + ")")
         .set_next({"", {{"force-field", "amber"}}});
   }
-  std::vector<std::string> all(ligands.begin(), ligands.end());
-  all.insert(all.end(), of_chains.begin(), of_chains.end());
   NextCommand next;
   Message remedy = "; ";
   const bool has_open_babel = !find_open_babel().empty();
-  if (!ligands.empty()) {
+  if (others.n < residues.size()) {
     remedy += "let Open Babel make them" +
               (has_open_babel ? std::string() : ", which is not there: " + std::string(kOpenBabelRemedy)) + " (" +
               option("ligands", "auto") + "), give a MOL2 file of each with hydrogens (" + option("ligand", "FILE") +
@@ -151,16 +175,10 @@ Message uncharged_remedy(const std::vector<Residue>& residues, const std::string
   } else {
     remedy += "give ";
   }
-  // By name, all others of this name would go, too.
-  const bool has_standard = std::any_of(of_chains.begin(), of_chains.end(), [](const std::string& name) {
-    return !is_ion_name(name) && residue_letter(name) != '?';
-  });
-  if (has_standard)
-    return remedy + "charges for all atoms (" + option("topology", "FILE") + ", " + option("charges-from", "FILE") +
-           " or a PQR), or complete these residues";
-  if (!of_chains.empty()) next.options.push_back({"leave-out", name_selection({of_chains.begin(), of_chains.end()})});
+  if (others.n > 0) next.options.push_back({"leave-out", others.selection()});
   remedy += "charges for all atoms (" + option("topology", "FILE") + ", " + option("charges-from", "FILE") +
-            " or a PQR), or drop them (" + option("leave-out", name_selection(all)) + ")";
+            " or a PQR), " + (any_usual ? "complete these residues, or leave these atoms out" : "or drop them") + " (" +
+            option("leave-out", all.selection()) + ")";
   return remedy.set_next(next);
 }
 
@@ -235,18 +253,19 @@ void require_known_names(const Molecule& before, const std::vector<GroupSource>&
   Uncharged uncharged;
   for (std::size_t r = 0; r < kinds.size(); ++r) {
     const std::string& name = before.residues[r].name;
-    const bool is_known = kinds[r] == ResidueKind::kOther
-                              ? ligand_of[r] >= 0 || is_cap_name(name) || sources[r] != GroupSource::kNone
-                          : kinds[r] == ResidueKind::kAminoAcid
-                              ? sources[r] != GroupSource::kNone || ligand_of[r] >= 0 || is_known_amino_acid(name)
-                              : kinds[r] != ResidueKind::kNucleotide || has_nucleotides(force_field) ||
-                                    (force_field == "parse" && name.front() != 'D' && name.front() != 'T');
+    const std::vector<std::string> foreign = foreign_atoms(before, r, atoms[r]);
+    const bool is_known =
+        kinds[r] == ResidueKind::kOther ? ligand_of[r] >= 0 || is_cap_name(name) || sources[r] != GroupSource::kNone
+        : kinds[r] == ResidueKind::kAminoAcid
+            ? sources[r] != GroupSource::kNone || ligand_of[r] >= 0 || (is_known_amino_acid(name) && foreign.empty())
+            : kinds[r] != ResidueKind::kNucleotide || has_nucleotides(force_field) ||
+                  (force_field == "parse" && name.front() != 'D' && name.front() != 'T');
     if (is_known || atoms[r].empty()) continue;
-    std::vector<std::string> names;
+    std::vector<std::string> names = foreign;
     for (const std::size_t i : atoms[r]) {
-      if (!is_hydrogen(before.atoms[i])) names.push_back(before.atoms[i].name);
+      if (foreign.empty() && !is_hydrogen(before.atoms[i])) names.push_back(before.atoms[i].name);
     }
-    if (!names.empty()) uncharged.add(before.residues[r], names);
+    if (!names.empty()) uncharged.add(before.residues[r], names, foreign.empty(), !foreign.empty());
   }
   if (uncharged.n_atoms > 0) refuse(before, force_field, uncharged);
 }
@@ -267,7 +286,7 @@ void compare_with_input(const Molecule& before, const Molecule& after, Preparati
       preparation.removed.push_back("OXT of " + residue_in_words(residue));
       missing.erase(std::remove_if(missing.begin(), missing.end(), is_end), missing.end());
     }
-    if (!missing.empty()) uncharged.add(residue, missing);
+    if (!missing.empty()) uncharged.add(residue, missing, found == of_after.end(), false);
     if (!extra.empty()) preparation.added.push_back(joined(extra) + " of " + residue_in_words(residue));
     preparation.n_hydrogens_added += got.n_hydrogens > given.n_hydrogens ? got.n_hydrogens - given.n_hydrogens : 0;
   }

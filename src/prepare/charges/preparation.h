@@ -17,11 +17,17 @@ namespace espdiff {
 using ResidueKey = std::tuple<std::string, std::int32_t, char>;
 inline ResidueKey key_of(const Residue& residue) { return {residue.chain, residue.number, residue.insertion_code}; }
 
+/// A residue that gets no charge, or of whose atoms some get none.
+struct UnchargedResidue : Residue {
+  std::vector<std::string> atoms{};  ///< those of an amino acid or a nucleotide that others of its name do not have
+  bool can_be_made = false;          ///< by Open Babel, although it has the name of an amino acid
+};
+
 /// Residues that get no charge. The first one is named, so that who knows the file can add the line.
 struct UnchargedError : InputError {
   /// @param name of the molecule
   UnchargedError(const std::string& name, const Message& lack, const Message& advice, Residue first,
-                 std::vector<Residue> all = {})
+                 std::vector<UnchargedResidue> all = {})
       : InputError(name + ": " + lack + advice),
         text(lack),
         remedy(advice),
@@ -31,13 +37,13 @@ struct UnchargedError : InputError {
   Message text;    ///< without the molecule's name and the remedy
   Message remedy;  ///< begins with "; "
   Residue residue;
-  std::vector<Residue> residues;  ///< empty where no residue of the molecule can be charged
+  std::vector<UnchargedResidue> residues;  ///< empty where no residue of the molecule can be charged
 };
 
 /// What to do about residues without charges: Open Babel for ligands, or a MOL2 file, or charges of all atoms, or to
 /// leave them out; and the command that does the first of these, which installs Open Babel where it is not there.
 /// @param residues of all states  @param force_field of ChargeOptions, not auto
-Message uncharged_remedy(const std::vector<Residue>& residues, const std::string& force_field);
+Message uncharged_remedy(const std::vector<UnchargedResidue>& residues, const std::string& force_field);
 
 /// What PDB2PQR added, repaired and protonated.
 struct Preparation {
