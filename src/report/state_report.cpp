@@ -28,8 +28,8 @@ void note_state(CompareResult& result, const std::string& role, const StateOrigi
   }
   if (!state.preparation) return;
   const Preparation& p = *state.preparation;
-  std::string text = p.program + ", " + p.force_field + ", pH " + formatted("%g", p.ph) + ": " +
-                     std::to_string(p.n_hydrogens_added) + " hydrogens added";
+  std::string text = p.program + (p.force_field == "none" ? "" : ", " + p.force_field) + ", pH " +
+                     formatted("%g", p.ph) + ": " + std::to_string(p.n_hydrogens_added) + " hydrogens added";
   if (!p.added.empty())
     text += ", " + std::to_string(p.added.size()) + (p.added.size() == 1 ? " residue" : " residues") + " repaired";
   result.inputs.lines.emplace_back(label, text);

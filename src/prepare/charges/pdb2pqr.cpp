@@ -32,6 +32,7 @@
 #include "prepare/charges/closed_chains.h"
 #include "prepare/charges/ligand.h"
 #include "prepare/charges/modified_residues.h"
+#include "prepare/charges/open_babel.h"
 #include "prepare/charges/separate_atoms.h"
 #include "system/python_start.h"
 
@@ -369,7 +370,7 @@ std::vector<std::string> used_files(const std::vector<Mol2File>& ligands, const 
   return paths;
 }
 
-void require_residues(const Molecule& molecule) {
+void require_residues(const Molecule& molecule, bool ligands_auto) {
   const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms_of_residues(molecule));
   if (std::any_of(kinds.begin(), kinds.end(), is_polymer)) return;
   if (molecule.residues.empty())
@@ -382,10 +383,17 @@ void require_residues(const Molecule& molecule) {
     if (!names.empty()) names += ", ";
     names += (residue.name.empty() ? "an unnamed residue" : "") + residue_in_words(residue);
   }
-  throw UnchargedError(
-      molecule.name, "has no charges, and no amino acids or nucleotides that PDB2PQR could charge, only " + names,
-      "; give a PQR, or charges (" + option("topology", "FILE") + " or " + option("charges-from", "FILE") + ")",
-      molecule.residues.front());
+  const bool is_there = !find_open_babel().empty(), is_asked = is_there && ligands_auto;
+  Message remedy = "; ";
+  if (!is_asked)
+    remedy += "let Open Babel charge ligands" +
+              (is_there ? std::string() : ", which is not there: " + std::string(kOpenBabelRemedy)) + " (" +
+              option("ligands", "auto") + "), ";
+  remedy += "give a PQR, or charges (" + option("topology", "FILE") + " or " + option("charges-from", "FILE") + ")";
+  if (!is_asked) remedy.set_next({is_there ? "" : "apt install openbabel && ", {{"ligands", "auto"}}});
+  throw UnchargedError(molecule.name,
+                       "has no charges, and no amino acids or nucleotides that PDB2PQR could charge, only " + names,
+                       remedy, molecule.residues.front());
 }
 
 }  // namespace
@@ -538,6 +546,22 @@ bool is_in_chain(GroupSource source) {
          source == GroupSource::kCap;
 }
 
+/// The program that charges a molecule of ligands and nothing of a chain; empty for others, which need PDB2PQR, and
+/// without a ligand of three heavy atoms: ions, and what is none by its names.
+std::string source_of_ligands(const Molecule& molecule, const std::vector<GroupSource>& sources) {
+  constexpr std::size_t kFewest = 3;
+  if (std::any_of(sources.begin(), sources.end(), is_in_chain)) return {};
+  std::string source;
+  std::vector<std::size_t> n_heavy(sources.size(), 0);
+  for (const Atom& atom : molecule.atoms) {
+    const auto r = static_cast<std::size_t>(atom.residue);
+    if (atom.element == "H" || atom.element == "D" || ++n_heavy[r] < kFewest) continue;
+    if (sources[r] == GroupSource::kOpenBabel) return "Open Babel";
+    if (sources[r] == GroupSource::kHaem) source = "CHARMM22's charges of haem";
+  }
+  return source;
+}
+
 /// What PDB2PQR charges. The groups that get charges otherwise become left out, so that PROPKA sees them.
 /// @param states [residue] or empty; those of the groups are taken out
 Molecule set_aside(const Molecule& molecule, const std::vector<GroupSource>& sources,
@@ -608,20 +632,16 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
                           const std::vector<std::string>& states, const Progress& progress) {
   const auto begun = std::chrono::steady_clock::now();
   const std::string program = find_pdb2pqr();
-  if (program.empty())
-    throw DeviceError(molecule.name + ": has no charges, and PDB2PQR, which assigns them, is not there; " +
-                      kPdb2pqrRemedy);
   Prepared prepared;
   Preparation& done = prepared.preparation;
   done.force_field = force_field_for(molecule, nullptr, options.force_field);
   if (has_kind(molecule, ResidueKind::kNucleotide) && done.force_field == "amber")
     done.notes.emplace_back("force field AMBER, since PARSE has no DNA");
   Molecule before = without_water(molecule, !states.empty());
-  require_residues(before);
+  require_no_beads(before);
   require_separate_atoms(before);
   const bool titrates = has_kind(before, ResidueKind::kAminoAcid), with_propka = states.empty() && titrates;
   done.propka = titrates;
-  if (!titrates) done.notes.emplace_back("no PROPKA, since there are no amino acids, which are all that it titrates");
   std::vector<std::string> kept_states;
   for (std::size_t r = 0; r < states.size(); ++r) {
     if (!is_water_name(molecule.residues[r].name)) kept_states.push_back(states[r]);
@@ -631,12 +651,21 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   for (const std::string& path : options.ligands) ligands.push_back(read_mol2(path));
   const std::vector<std::int32_t> ligand_of = ligands_of_residues(before, ligands);
   const std::vector<GroupSource> sources = group_sources(before, ligand_of, options);
+  const std::string without_chains = source_of_ligands(before, sources);
+  const bool is_alone = !without_chains.empty();
+  if (!is_alone && program.empty())
+    throw DeviceError(molecule.name + ": has no charges, and PDB2PQR, which assigns them, is not there; " +
+                      kPdb2pqrRemedy);
+  if (!is_alone) require_residues(before, options.ligands_auto);
+  if (!titrates && !is_alone)
+    done.notes.emplace_back("no PROPKA, since there are no amino acids, which are all that it titrates");
   require_known_names(before, sources, ligand_of, done.force_field);
   Groups groups = charge_groups(before, sources, options, progress);
   Run run(program, options, done.force_field, with_propka, progress);
   const Molecule chains = set_aside(before, sources, kept_states);
   const Molecule given = add_ligand_hydrogens(chains, ligands, ligands_of_residues(chains, ligands));
   const auto run_on = [&](const Molecule& atoms) {
+    if (is_alone) return Molecule();
     try {
       return run_with_ligands(run, atoms, kept_states, ligands);
     } catch (const PropkaError&) {
@@ -665,6 +694,7 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   restore_residues(prepared.molecule, before, sources, groups.modified);
   charge_caps(prepared.molecule, before, sources, groups.modified, done.force_field);
   append(prepared.molecule, groups.charged);
+  if (is_alone) prepared.molecule.radii_origin = ValueOrigin::kFile;
   prepared.molecule.name = molecule.name;
   take_knowledge(before, prepared.molecule);
   const std::size_t n_seen = with_left_out_groups(before).residues.size() - before.residues.size();
@@ -676,10 +706,11 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   if (with_propka && done.propka && n_seen > 0)
     done.notes.push_back("PROPKA saw " + std::to_string(n_seen) + (n_seen == 1 ? " group" : " groups") +
                          " beside the chains that the molecule leaves out");
-  done.program = run.version();
+  done.program = is_alone ? without_chains : run.version();
+  if (is_alone) done.force_field = "none";
   done.ph = options.ph;
   done.ligands = used_files(ligands, ligand_of);
-  done.from_cache = run.all_from_cache();
+  done.from_cache = !is_alone && run.all_from_cache();
   compare_with_input(before, prepared.molecule, done);
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return prepared;

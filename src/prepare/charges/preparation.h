@@ -47,8 +47,8 @@ Message uncharged_remedy(const std::vector<UnchargedResidue>& residues, const st
 
 /// What PDB2PQR added, repaired and protonated.
 struct Preparation {
-  std::string program;      ///< "PDB2PQR v3.5.2"
-  std::string force_field;  ///< lower case; never auto
+  std::string program;      ///< "PDB2PQR v3.5.2"; "Open Babel" for ligands alone
+  std::string force_field;  ///< lower case; never auto; "none" for ligands alone
   double ph = 7;
   bool propka = true;                ///< whether PROPKA chose protonation states; false where nothing titrates
   std::vector<std::string> ligands;  ///< MOL2 files of residues that were there
