@@ -38,6 +38,8 @@ void note_state(CompareResult& result, const std::string& role, const StateOrigi
     result.inputs.lines.emplace_back(i == 0 ? "Beside the chains, " + role : "", p.groups[i]);
   if (p.groups.size() > kMostGroups)
     result.inputs.lines.emplace_back("", "and " + std::to_string(p.groups.size() - kMostGroups) + " more");
+  for (std::size_t i = 0; i < p.notes.size(); ++i)
+    result.inputs.lines.emplace_back(i == 0 ? "Notes, " + role : "", p.notes[i]);
   for (const std::string& warning : p.warnings) result.inputs.warnings.push_back({"of the " + role + ", " + warning});
   if (!p.topology_beside.empty())
     result.inputs.warnings.push_back({"charges of the " + role + ": " + option(role + "-topology", p.topology_beside) +

@@ -368,6 +368,18 @@ TEST_CASE("prepare_molecule: the program gets fixed names in a folder of its own
   program("echo 'Unable to debump biomolecule. Found gap in biomolecule structure for atom HZ3 LYN'; exit 1");
   CHECK(message_of([&] { prepare(molecule); }).find("it: an atom of the file is none of its residue's atoms") !=
         std::string::npos);
+  program(
+      "echo 'WARNING:Residue ASN A 2 has non-integer charge:  -0.3'; echo 'WARNING:Residue ILE A 3 has non-integer "
+      "charge:  0.1'; echo 'ValueError: non-integer charge'; exit 1");
+  CHECK(message_of([&] {
+          prepare(molecule);
+        }).find("it: the sum of the charges is not a whole number (ASN 2 of chain A, ILE 3 of chain A); complete") !=
+        std::string::npos);
+  program("echo 'Too few atoms present to reconstruct or cap residue ILE A 3 in structure! This error is'; exit 1");
+  CHECK(message_of([&] {
+          prepare(molecule);
+        }).find("it: a residue has too few atoms to place the missing ones by (ILE 3 of chain A); complete") !=
+        std::string::npos);
   program("truncate -s 600M output.pqr; sleep 60");
   CHECK(message_of([&] { prepare(molecule); }).find("PDB2PQR wrote more than 512 MB and was ended") !=
         std::string::npos);
@@ -539,12 +551,13 @@ TEST_CASE(
   CHECK(pieces_of_chains(merged).back() == 1);
 }
 
-TEST_CASE("pieces_of_chains: nucleotides that are not bound begin anew, one without its phosphate is bound") {
+TEST_CASE("pieces_of_chains: nucleotides that are not bound begin anew, also where atoms at the bond are missing") {
   Molecule dna;
-  const auto add = [&](int number, double x, bool has_phosphate) {
+  const auto add = [&](int number, double x, const std::string& without) {
     dna.residues.push_back({"DA", "A", number, ' '});
-    for (const auto& [name, at] : {std::pair("P", 0.0), {"O5'", 1.5}, {"O3'", 4.0}}) {
-      if (name == std::string("P") && !has_phosphate) continue;
+    for (const auto& [name, at] :
+         {std::pair<std::string, double>("P", 0), {"O5'", 1.5}, {"C5'", 2}, {"C3'", 3}, {"O3'", 4}}) {
+      if (without.find(name) != std::string::npos) continue;
       Atom atom;
       atom.name = name;
       atom.residue = static_cast<std::int32_t>(dna.residues.size() - 1);
@@ -552,12 +565,34 @@ TEST_CASE("pieces_of_chains: nucleotides that are not bound begin anew, one with
       dna.positions.push_back({x + at, 0, 0});
     }
   };
-  add(1, 0, false);
-  add(2, 5.6, true);
-  add(3, 11.2, false);
-  add(14, 40, true);
-  add(15, 60, false);
-  CHECK(pieces_of_chains(dna) == std::vector<std::size_t>{0, 0, 0, 1, 2});
+  add(1, 0, "P");
+  add(2, 5.6, "");
+  add(3, 11.2, "P O3'");
+  add(4, 16.8, "");
+  add(14, 40, "O3'");
+  add(15, 60, "P O5'");
+  CHECK(pieces_of_chains(dna) == std::vector<std::size_t>{0, 0, 0, 0, 1, 2});
+}
+
+TEST_CASE("prepare_molecule: two proteins under one chain's name, of which the second begins at a lower number") {
+  const std::string text = lysozyme(1, 30);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  const Molecule one = read(folder, text);
+  Molecule two = one;
+  for (const Residue& residue : one.residues) two.residues.push_back(residue);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    two.atoms.push_back(one.atoms[i]);
+    two.atoms.back().residue += static_cast<std::int32_t>(one.residues.size());
+    two.positions.push_back(one.positions[i] + Vec3d{100, 0, 0});
+    two.radii.push_back(one.radii[i]);
+  }
+  const Prepared single = prepare(one), both = prepare(two);
+  CHECK(both.preparation.net_charge == doctest::Approx(2 * single.preparation.net_charge).epsilon(1e-4));
+  CHECK(both.molecule.size() == 2 * single.molecule.size());
+  CHECK(both.molecule.residues.size() == two.residues.size());
+  // A gap within a chain is none: its numbers rise.
+  CHECK(pieces_of_chains(read(folder, lysozyme(1, 5) + lysozyme(20, 25))) == std::vector<std::size_t>(11, 0));
 }
 
 TEST_CASE("force_field_for: AMBER where there are nucleotides, one force field for both states") {

@@ -271,6 +271,44 @@ std::string reason_in(const std::string& log) {
   return "its reason is not known here, and pdb2pqr30 prints it when it is run on the file";
 }
 
+/// The residues that a log names between some words, as "DA B 12".
+/// @param numbered [residue] as the program got it
+std::vector<Residue> residues_in(const std::string& log, const std::string& before, const std::string& after,
+                                 const Molecule& given, const std::vector<Residue>& numbered) {
+  std::vector<Residue> found;
+  std::set<std::size_t> seen;
+  for (std::size_t at = log.find(after); at != std::string::npos; at = log.find(after, at + 1)) {
+    const std::size_t begin = log.rfind(before, at);
+    if (begin == std::string::npos) continue;
+    std::istringstream words(log.substr(begin + before.size(), at - begin - before.size()));
+    std::string name, chain;
+    std::int32_t number = 0;
+    if (!(words >> name >> chain >> number)) continue;
+    for (std::size_t r = 0; r < numbered.size(); ++r) {
+      if (numbered[r].chain == chain && numbered[r].number == number && seen.insert(r).second)
+        found.push_back(given.residues[r]);
+    }
+  }
+  return found;
+}
+
+/// The residues that a reason is about.
+std::vector<Residue> blamed_residues(const std::string& log, const Molecule& given,
+                                     const std::vector<Residue>& numbered) {
+  std::vector<Residue> blamed = residues_in(log, "residue ", " in structure!", given, numbered);
+  return blamed.empty() ? residues_in(log, "Residue ", " has non-integer charge", given, numbered) : blamed;
+}
+
+/// " (DA 1 of chain B, DT 11 of chain B)"
+std::string in_parentheses(const std::vector<Residue>& residues) {
+  constexpr std::size_t kMostNamed = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(residues.size(), kMostNamed); ++i)
+    text += (text.empty() ? " (" : ", ") + residue_in_words(residues[i]);
+  if (residues.size() > kMostNamed) text += " and " + std::to_string(residues.size() - kMostNamed) + " more";
+  return text.empty() ? text : text + ")";
+}
+
 /// "PDB2PQR v3.5.2"
 std::string version_in(const std::string& log) {
   const std::size_t at = log.find("PDB2PQR v");
@@ -279,9 +317,10 @@ std::string version_in(const std::string& log) {
 }
 
 /// Runs the program. The output's first line is a remark with the program's version.
-/// @param given the atoms of the PDB file, in its order
-std::string run_pdb2pqr(const std::string& program, const Molecule& given, const std::string& pdb,
-                        const std::string& ligand, const std::vector<std::string>& options, const Progress& progress) {
+/// @param given the atoms of the PDB file, in its order  @param numbered [residue] by the names of that file
+std::string run_pdb2pqr(const std::string& program, const Molecule& given, const std::vector<Residue>& numbered,
+                        const std::string& pdb, const std::string& ligand, const std::vector<std::string>& options,
+                        const Progress& progress) {
   const TemporaryFolder folder;
   ProgramCall call;
   call.words = words_to_start(program);
@@ -303,11 +342,13 @@ std::string run_pdb2pqr(const std::string& program, const Molecule& given, const
   const std::string log = result.output + result.messages;
   if (result.status != 0 || !std::filesystem::exists(folder.file("output.pqr"), ignored)) {
     if (log.find(kUnknownAtomMark) != std::string::npos) refuse_unknown_atom(log, given);
-    const Message text = given.name + ": has no charges, and PDB2PQR cannot prepare it: " + reason_in(log) +
-                         "; complete or mend the structure, leave atoms out (" + option("leave-out", "(...)") +
-                         "), or give charges (" + option("topology", "FILE") + " of a PSF or prmtop, or a PQR)";
-    if (log.find(kPropkaMark) != std::string::npos) throw PropkaError(text);
-    throw InputError(text);
+    const std::vector<Residue> blamed = blamed_residues(log, given, numbered);
+    const Message lack = "has no charges, and PDB2PQR cannot prepare it: " + reason_in(log) + in_parentheses(blamed),
+                  remedy = "; complete or mend the structure, leave atoms out (" + option("leave-out", "(...)") +
+                           "), or give charges (" + option("topology", "FILE") + " of a PSF or prmtop, or a PQR)";
+    if (log.find(kPropkaMark) != std::string::npos) throw PropkaError(given.name + ": " + lack + remedy);
+    if (blamed.empty()) throw InputError(given.name + ": " + lack + remedy);
+    throw UnchargedError(given.name, lack, remedy, blamed.front());
   }
   return "REMARK " + version_in(log) + "\n" + read_input(folder.file("output.pqr")).content;
 }
@@ -445,7 +486,7 @@ class Run {
     std::optional<std::string> output = options_.use_cache ? find_in_cache(key) : std::nullopt;
     if (!output) {
       all_from_cache_ = false;
-      output = run_pdb2pqr(program_, whole, pdb, ligand, words_, progress_);
+      output = run_pdb2pqr(program_, whole, renumbering.residues(), pdb, ligand, words_, progress_);
       if (options_.use_cache) keep_in_cache(key, *output);
     }
     const std::size_t begin = std::string("REMARK ").size();

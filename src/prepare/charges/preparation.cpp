@@ -190,8 +190,12 @@ std::string atom_selection(const Residue& residue, const std::vector<std::string
 }
 
 std::vector<std::size_t> pieces_of_chains(const Molecule& molecule) {
-  // Where the phosphate was left out, its place is between the oxygens.
-  constexpr double kLongestBond_A = 2.5, kLongestPhosphate_A = 4;
+  // Of a bond, then of what lies around it where the phosphate was left out or atoms are missing.
+  struct Reach {
+    const char *before, *after;
+    double longest_A;
+  };
+  constexpr Reach kReaches[] = {{"C", "N", 2.5}, {"O3'", "P", 2.5}, {"O3'", "O5'", 4}, {"C3'", "C5'", 6.5}};
   struct Last {
     std::size_t residue = 0;
     ResidueKind kind = ResidueKind::kOther;
@@ -200,11 +204,13 @@ std::vector<std::size_t> pieces_of_chains(const Molecule& molecule) {
   const auto atoms = atoms_of_residues(molecule);
   const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
   const auto is_bound = [&](std::size_t before, std::size_t after) {
-    const Vec3d *const o3 = position_of(molecule, atoms[before], "O3'"),
-                       *const p = position_of(molecule, atoms[after], "P"),
-                       *const o5 = position_of(molecule, atoms[after], "O5'");
-    if (o3 == nullptr || (p == nullptr && o5 == nullptr)) return true;
-    return norm(*o3 - (p != nullptr ? *p : *o5)) <= (p != nullptr ? kLongestBond_A : kLongestPhosphate_A);
+    for (const Reach& reach : kReaches) {
+      const Vec3d *const a = position_of(molecule, atoms[before], reach.before), *const b =
+                                                                                     position_of(molecule, atoms[after],
+                                                                                                 reach.after);
+      if (a != nullptr && b != nullptr) return norm(*a - *b) <= reach.longest_A;
+    }
+    return true;
   };
   std::map<std::string, Last> chains;
   std::vector<std::size_t> pieces;
@@ -215,8 +221,11 @@ std::vector<std::size_t> pieces_of_chains(const Molecule& molecule) {
                                                            : kinds[r];
     Last& last = chains[molecule.residues[r].chain];
     if (kind != ResidueKind::kOther) {
-      const bool begins = last.kind != ResidueKind::kOther &&
-                          (kind != last.kind || (kind == ResidueKind::kNucleotide && !is_bound(last.residue, r)));
+      // A break of a protein is a missing loop unless its numbers begin anew.
+      const bool falls = molecule.residues[r].number < molecule.residues[last.residue].number;
+      const bool begins =
+          last.kind != ResidueKind::kOther &&
+          (kind != last.kind || ((kind == ResidueKind::kNucleotide || falls) && !is_bound(last.residue, r)));
       last = {r, kind, last.piece + (begins ? 1 : 0)};
     }
     pieces.push_back(last.piece);

@@ -85,8 +85,8 @@ void require_known_names(const Molecule& before, const std::vector<GroupSource>&
                          const std::vector<std::int32_t>& ligand_of, const std::string& force_field);
 
 /// [residue] how often its chain changes between protein and nucleic acid, or begins anew with a nucleotide that is not
-/// bound to the one before, up to it: files that merge chains have several molecules under one name. Ligands count with
-/// what stands before them.
+/// bound to the one before, or an amino acid that is not and has a lower number, up to it: files that merge chains have
+/// several molecules under one name. Ligands count with what stands before them.
 std::vector<std::size_t> pieces_of_chains(const Molecule& molecule);
 
 /// Breaks of a chain: C and N of residues that follow each other lie more than 2.5 A apart.
