@@ -411,6 +411,17 @@ std::vector<std::string> used_files(const std::vector<Mol2File>& ligands, const 
   return paths;
 }
 
+/// Residues of three heavy atoms or more, which ions and what is no molecule by its names do not have.
+std::vector<std::size_t> ligand_residues(const Molecule& molecule) {
+  constexpr std::size_t kFewest = 3;
+  std::vector<std::size_t> n_heavy(molecule.residues.size(), 0), ligands;
+  for (const Atom& atom : molecule.atoms) {
+    const auto r = static_cast<std::size_t>(atom.residue);
+    if (atom.element != "H" && atom.element != "D" && ++n_heavy[r] == kFewest) ligands.push_back(r);
+  }
+  return ligands;
+}
+
 void require_residues(const Molecule& molecule, bool ligands_auto) {
   const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms_of_residues(molecule));
   if (std::any_of(kinds.begin(), kinds.end(), is_polymer)) return;
@@ -424,14 +435,15 @@ void require_residues(const Molecule& molecule, bool ligands_auto) {
     if (!names.empty()) names += ", ";
     names += (residue.name.empty() ? "an unnamed residue" : "") + residue_in_words(residue);
   }
-  const bool is_there = !find_open_babel().empty(), is_asked = is_there && ligands_auto;
+  const bool is_there = !find_open_babel().empty(),
+             would_help = (!is_there || !ligands_auto) && !ligand_residues(molecule).empty();
   Message remedy = "; ";
-  if (!is_asked)
+  if (would_help)
     remedy += "let Open Babel charge ligands" +
               (is_there ? std::string() : ", which is not there: " + std::string(kOpenBabelRemedy)) + " (" +
               option("ligands", "auto") + "), ";
   remedy += "give a PQR, or charges (" + option("topology", "FILE") + " or " + option("charges-from", "FILE") + ")";
-  if (!is_asked) remedy.set_next({is_there ? "" : "apt install openbabel && ", {{"ligands", "auto"}}});
+  if (would_help) remedy.set_next({is_there ? "" : "apt install openbabel && ", {{"ligands", "auto"}}});
   throw UnchargedError(molecule.name,
                        "has no charges, and no amino acids or nucleotides that PDB2PQR could charge, only " + names,
                        remedy, molecule.residues.front());
@@ -587,16 +599,11 @@ bool is_in_chain(GroupSource source) {
          source == GroupSource::kCap;
 }
 
-/// The program that charges a molecule of ligands and nothing of a chain; empty for others, which need PDB2PQR, and
-/// without a ligand of three heavy atoms: ions, and what is none by its names.
+/// The program that charges a molecule of ligands and nothing of a chain; empty for others, which need PDB2PQR.
 std::string source_of_ligands(const Molecule& molecule, const std::vector<GroupSource>& sources) {
-  constexpr std::size_t kFewest = 3;
   if (std::any_of(sources.begin(), sources.end(), is_in_chain)) return {};
   std::string source;
-  std::vector<std::size_t> n_heavy(sources.size(), 0);
-  for (const Atom& atom : molecule.atoms) {
-    const auto r = static_cast<std::size_t>(atom.residue);
-    if (atom.element == "H" || atom.element == "D" || ++n_heavy[r] < kFewest) continue;
+  for (const std::size_t r : ligand_residues(molecule)) {
     if (sources[r] == GroupSource::kOpenBabel) return "Open Babel";
     if (sources[r] == GroupSource::kHaem) source = "CHARMM22's charges of haem";
   }
