@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -133,6 +134,35 @@ std::string normalized_atom_name(const std::string& atom_name, char letter) {
   if (letter == 't' && name == "C5M") return "C7";  // thymine's methyl group before 2007
   const char* const synonym = synonym_of(name);
   return synonym == nullptr ? name : synonym;
+}
+
+bool is_heavy_atom_of(char letter, const std::string& atom_name) {
+  static constexpr std::string_view kBackbone = " N CA C O OXT ";
+  static constexpr std::pair<char, std::string_view> kSideChains[] = {{'A', " CB "},
+                                                                      {'R', " CB CG CD NE CZ NH1 NH2 "},
+                                                                      {'N', " CB CG OD1 ND2 "},
+                                                                      {'D', " CB CG OD1 OD2 "},
+                                                                      {'C', " CB SG "},
+                                                                      {'Q', " CB CG CD OE1 NE2 "},
+                                                                      {'E', " CB CG CD OE1 OE2 "},
+                                                                      {'G', " "},
+                                                                      {'H', " CB CG ND1 CD2 CE1 NE2 "},
+                                                                      {'I', " CB CG1 CG2 CD1 "},
+                                                                      {'L', " CB CG CD1 CD2 "},
+                                                                      {'K', " CB CG CD CE NZ "},
+                                                                      {'M', " CB CG SD CE "},
+                                                                      {'F', " CB CG CD1 CD2 CE1 CE2 CZ "},
+                                                                      {'P', " CB CG CD "},
+                                                                      {'S', " CB OG "},
+                                                                      {'T', " CB OG1 CG2 "},
+                                                                      {'W', " CB CG CD1 CD2 NE1 CE2 CE3 CZ2 CZ3 CH2 "},
+                                                                      {'Y', " CB CG CD1 CD2 CE1 CE2 CZ OH "},
+                                                                      {'V', " CB CG1 CG2 "}};
+  const auto* const row = std::find_if(std::begin(kSideChains), std::end(kSideChains),
+                                       [&](const auto& side_chain) { return side_chain.first == letter; });
+  const std::string word = " " + atom_name + " ";
+  return row == std::end(kSideChains) || kBackbone.find(word) != std::string_view::npos ||
+         row->second.find(word) != std::string_view::npos;
 }
 
 std::vector<std::vector<std::size_t>> atoms_of_residues(const Molecule& molecule) {

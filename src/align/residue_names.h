@@ -26,6 +26,10 @@ bool same_residue_name(const std::string& a, const std::string& b);
 /// @param letter residue_letter() of its residue; CHARMM's CD and HD1 of isoleucine are CD1 and HD11 elsewhere
 std::string normalized_atom_name(const std::string& atom_name, char letter = '?');
 
+/// Whether one of the 20 amino acids has a heavy atom of this name; true of other letters.
+/// @param atom_name normalized
+bool is_heavy_atom_of(char letter, const std::string& atom_name);
+
 /// [residue][] indices of its atoms, in file order.
 std::vector<std::vector<std::size_t>> atoms_of_residues(const Molecule& molecule);
 

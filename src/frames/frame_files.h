@@ -12,8 +12,8 @@
 
 namespace espdiff {
 
-/// Models of PQR, PDB, mmCIF or GRO files, or frames of trajectories, as frames, numbered from 0 through all files. One file
-/// at a time is in memory.
+/// Models of PQR, PDB, mmCIF or GRO files, or frames of trajectories, as frames, numbered from 0 through all files. One
+/// file at a time is in memory.
 class FrameFiles {
  public:
   /// Reads every file, to count its models. A file that is read again must have the same content.

@@ -133,7 +133,7 @@ std::string topology_option(StateRole role) {
                                    const StateRequest& request, const std::string& force_field) {
   const std::string place = line == 0 ? name : name + ":" + std::to_string(line);
   Message lack = error.text, remedy = error.remedy;
-  std::vector<Residue> residues = error.residues;
+  std::vector<UnchargedResidue> residues = error.residues;
   if (request.check_partner && !residues.empty()) {
     try {
       request.check_partner();

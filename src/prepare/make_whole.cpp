@@ -15,9 +15,8 @@ namespace {
 
 /// Place of an atom by its name; -1 where there is none.
 std::ptrdiff_t find_atom(const Molecule& molecule, const std::vector<std::size_t>& atoms, const char* name) {
-  const auto found = std::find_if(atoms.begin(), atoms.end(), [&](std::size_t i) {
-    return normalized_atom_name(molecule.atoms[i].name) == name;
-  });
+  const auto found = std::find_if(atoms.begin(), atoms.end(),
+                                  [&](std::size_t i) { return normalized_atom_name(molecule.atoms[i].name) == name; });
   return found == atoms.end() ? -1 : static_cast<std::ptrdiff_t>(*found);
 }
 

@@ -7,8 +7,8 @@
 
 namespace espdiff {
 
-/// Gives a molecule without charges and radii of its own (PDB, mmCIF, GRO), such as a frame, those of another state (PQR).
-/// Atoms pair by name and residue (pair_atoms()), every atom of both. A molecule that has them keeps them.
+/// Gives a molecule without charges and radii of its own (PDB, mmCIF, GRO), such as a frame, those of another state
+/// (PQR). Atoms pair by name and residue (pair_atoms()), every atom of both. A molecule that has them keeps them.
 /// @param name of the frame, for messages
 /// @throws InputError when atoms are left over on either side, with the first of them
 void take_values(Molecule& frame, const Molecule& molecule, const std::string& name);

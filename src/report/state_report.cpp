@@ -31,8 +31,8 @@ void note_state(CompareResult& result, const std::string& role, const StateOrigi
   }
   if (!state.preparation) return;
   const Preparation& p = *state.preparation;
-  std::string text = p.program + ", " + p.force_field + ", pH " + formatted("%g", p.ph) + ": " +
-                     std::to_string(p.n_hydrogens_added) + " hydrogens added";
+  std::string text = p.program + (p.force_field == "none" ? "" : ", " + p.force_field) + ", pH " +
+                     formatted("%g", p.ph) + ": " + std::to_string(p.n_hydrogens_added) + " hydrogens added";
   if (!p.added.empty())
     text += ", " + std::to_string(p.added.size()) + (p.added.size() == 1 ? " residue" : " residues") + " repaired";
   result.inputs.lines.emplace_back(label, text);
@@ -41,6 +41,8 @@ void note_state(CompareResult& result, const std::string& role, const StateOrigi
     result.inputs.lines.emplace_back(i == 0 ? "Beside the chains, " + role : "", p.groups[i]);
   if (p.groups.size() > kMostGroups)
     result.inputs.lines.emplace_back("", "and " + std::to_string(p.groups.size() - kMostGroups) + " more");
+  for (std::size_t i = 0; i < p.notes.size(); ++i)
+    result.inputs.lines.emplace_back(i == 0 ? "Notes, " + role : "", p.notes[i]);
   for (const std::string& warning : p.warnings) result.inputs.warnings.push_back({"of the " + role + ", " + warning});
   if (!p.topology_beside.empty())
     result.inputs.warnings.push_back({"charges of the " + role + ": " + option(role + "-topology", p.topology_beside) +

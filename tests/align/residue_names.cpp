@@ -32,6 +32,17 @@ TEST_CASE("nucleotides have their own letters, so that A is not alanine") {
   CHECK_FALSE(same_residue_name("NTE", "CTE"));
 }
 
+TEST_CASE("heavy atoms of the amino acids; other letters have any") {
+  CHECK(is_heavy_atom_of('C', "SG"));
+  CHECK(is_heavy_atom_of('C', "OXT"));
+  CHECK(is_heavy_atom_of('W', "CH2"));
+  CHECK_FALSE(is_heavy_atom_of('C', "P"));
+  CHECK_FALSE(is_heavy_atom_of('G', "CB"));
+  CHECK_FALSE(is_heavy_atom_of('L', "CD"));
+  CHECK(is_heavy_atom_of('?', "P"));
+  CHECK(is_heavy_atom_of('a', "P"));
+}
+
 TEST_CASE("old, CHARMM and current atom names are normalized to one spelling") {
   CHECK(normalized_atom_name("1HB") == "HB1");
   CHECK(normalized_atom_name("2HG1") == "HG12");

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <map>
 
+#include "base/molecule/input_options.h"
 #include "io/structures/structure_file.h"
 #include "prepare/charges/pdb2pqr.h"
 #include "support/test_data.h"

@@ -195,3 +195,48 @@ TEST_CASE("group_sources: salt that touches nothing is left out, bound ions and 
   const Molecule alone = molecule_of(hetatm(1, "NA", "NA", 2, 0, 0, 0, "NA") + hetatm(2, "CL", "CL", 3, 9, 0, 0, "CL"));
   CHECK(group_sources(alone, {-1, -1}, options)[0] == GroupSource::kIon);
 }
+
+TEST_CASE("prepare_molecule: a ligand alone is charged as beside a protein, without PDB2PQR") {
+  const Molecule molecule = molecule_of(ethanol("LIG", 1, 0));
+  ChargeOptions options;
+  setenv("ESPDIFF_PDB2PQR", "/nowhere/pdb2pqr", 1);
+  if (!find_open_babel().empty()) {
+    const Prepared alone = prepare_molecule(molecule, options, {}, Progress());
+    const Groups beside = charged(molecule, options);
+    CHECK(alone.molecule.charges == beside.charged.charges);
+    CHECK(alone.molecule.radii == beside.charged.radii);
+    CHECK(alone.preparation.groups == beside.lines);
+    CHECK(alone.preparation.warnings == beside.warnings);
+    CHECK(alone.preparation.program == "Open Babel");
+    CHECK(alone.preparation.force_field == "none");
+    CHECK(alone.preparation.n_hydrogens_added == 6);
+  }
+  // An ion has no shape worth a comparison.
+  const Molecule ion = molecule_of(hetatm(1, "ZN", " ZN", 1, 0, 0, 0, "ZN"));
+  CHECK(message_of([&] { prepare_molecule(ion, options, {}, Progress()); }).find("and PDB2PQR, which assigns them") !=
+        std::string::npos);
+  unsetenv("ESPDIFF_PDB2PQR");
+  setenv("ESPDIFF_OBABEL", "/nowhere/obabel", 1);
+  if (!find_pdb2pqr().empty())
+    CHECK(
+        message_of([&] { prepare_molecule(molecule, options, {}, Progress()); })
+            .find("has no charges, and no amino acids or nucleotides that PDB2PQR could charge, only LIG 1 of chain A; "
+                  "let Open Babel charge ligands, which is not there: install it (Debian: openbabel) (ligands auto), "
+                  "give a PQR, or charges (topology FILE or charges-from FILE)") != std::string::npos);
+  unsetenv("ESPDIFF_OBABEL");
+}
+
+TEST_CASE("prepare_molecule: coarse-grained beads and those of shapes are named as such") {
+  const auto beads = [](const std::string& residue, const std::string& first, const std::string& second) {
+    const Molecule molecule =
+        molecule_of(hetatm(1, first, residue, 1, 0, 0, 0, "C") + hetatm(2, second, residue, 1, 3, 0, 0, "C"));
+    return message_of([&] { prepare_molecule(molecule, {}, {}, Progress()); });
+  };
+  const std::string rest =
+      " of chain A), which have neither hydrogens nor charges of atoms; give the structure with all atoms, or a PQR "
+      "with "
+      "each bead's charge and radius";
+  CHECK(beads("MET", " BB", " SC1").find(": has coarse-grained beads (BB of MET 1" + rest) != std::string::npos);
+  CHECK(beads("SHA", " SHA", " SHB").find("beads") == std::string::npos);
+  CHECK(beads("SHA", " SHA", "SHA").find(": has coarse-grained beads (SHA of SHA 1" + rest) != std::string::npos);
+}

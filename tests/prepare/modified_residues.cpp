@@ -302,4 +302,23 @@ TEST_CASE("rename_residues: CHARMM's nucleotides by their sugar, a protonated ac
   CHECK(molecule.size() == 17);  // without the proton, which PDB2PQR places at OD2
   CHECK(molecule.atoms[15].name == "O");
   CHECK(molecule.atoms[16].name == "OXT");
+  // A second oxygen at C, under any name; one of the side chain keeps its name.
+  molecule = molecule_from(row_of_names("SER", 5, {"N", "CA", "C", "O", "OG"}) +
+                           record(6, " O01", "SER", 5, {3.0, 1.2, 15.0}, "O"));
+  rename_residues(molecule, preparation);
+  CHECK(molecule.atoms[4].name == "OG");
+  CHECK(molecule.atoms[5].name == "OXT");
+}
+
+TEST_CASE("rename_residues: GROMACS' mass centres of virtual sites are left out with a note, metals stay") {
+  Molecule molecule =
+      molecule_from(row_of_names("LYS", 4, {"N", "CA", "C", "O", "NZ"}) + record(6, "MNZ1", "LYS", 4, {9, 0, 12}, "") +
+                    record(7, "MNZ2", "LYS", 4, {9, 1, 12}, "") + record(8, "MN", " MN", 5, {20, 0, 0}, "MN"));
+  Preparation preparation;
+  rename_residues(molecule, preparation);
+  REQUIRE(molecule.size() == 6);
+  CHECK(molecule.atoms[5].name == "MN");
+  CHECK(preparation.notes ==
+        std::vector<std::string>{"2 mass centres of GROMACS, which are no atoms and have no charge, were left out "
+                                 "(first MNZ1 of LYS 4 of chain A)"});
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -18,6 +19,7 @@
 #include "io/molecules/write_pqr.h"
 #include "io/structures/structure_file.h"
 #include "prepare/charges/cache.h"
+#include "prepare/charges/open_babel.h"
 #include "prepare/charges/separate_atoms.h"
 #include "prepare/load_state.h"
 #include "support/test_data.h"
@@ -218,6 +220,44 @@ TEST_CASE("prepare_molecule: a missing loop is listed, its ends stay uncharged; 
   }
 }
 
+TEST_CASE("prepare_molecule: hydrogens under names that PDB2PQR does not know are placed anew, and a note says so") {
+  const std::string text = lysozyme(1, 30);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  // All heavy atoms are there: where some are missing, PDB2PQR drops what it does not know.
+  Molecule whole = prepare(read(folder, text)).molecule;
+  whole.charges.assign(whole.size(), 0);
+  whole.name = "whole.pdb";
+  const Prepared plain = prepare(whole);
+  std::size_t n_hydrogens = 0;
+  std::string first;
+  for (Atom& atom : whole.atoms) {
+    if (atom.element != "H") continue;
+    atom.name = "H" + std::to_string(100 + n_hydrogens++ % 30);
+    if (first.empty()) first = atom.name;
+  }
+  const Prepared odd = prepare(whole);
+  CHECK(odd.molecule.charges == plain.molecule.charges);
+  CHECK(odd.molecule.positions == plain.molecule.positions);
+  REQUIRE(odd.preparation.notes.size() == 1);
+  CHECK(odd.preparation.notes[0] == "the file's " + std::to_string(n_hydrogens) +
+                                        " hydrogens were placed anew, since PDB2PQR does not know " + first +
+                                        " of MET 1 of chain A; PROPKA decides the protonation");
+  // A heavy atom is not dropped.
+  whole.atoms.back().name = "XX9";
+  whole.atoms.back().element = "C";
+  ChargeOptions options = without_cache();
+  options.force_field = "charmm";
+  options.ligands_auto = false;
+  const Residue& last = whole.residues.back();
+  const std::string number = std::to_string(last.number);
+  CHECK(message_of([&] { prepare_molecule(whole, options, {}, Progress()); }) ==
+        "whole.pdb: has no charges, and PDB2PQR cannot prepare it: XX9 of " + last.name + " " + number +
+            " of chain A is none of its residue's atoms by this name; name it as the PDB does, leave it out (leave-out "
+            "//A/" +
+            number + "/XX9), or give charges (topology FILE of a PSF or prmtop, or a PQR)");
+}
+
 TEST_CASE("prepare_molecule: of alternate locations the better occupied one is charged") {
   const std::string text = lysozyme(1, 20);
   if (text.empty() || !has_pdb2pqr()) return;
@@ -326,7 +366,19 @@ TEST_CASE("prepare_molecule: the program gets fixed names in a folder of its own
   program("echo 'WARNING:Unable to find amino or nucleic acid definition for ZN. Parsing as new residue.'; exit 1");
   CHECK(message_of([&] { prepare(molecule); }).find(unknown) != std::string::npos);
   program("echo 'Unable to debump biomolecule. Found gap in biomolecule structure for atom HZ3 LYN'; exit 1");
-  CHECK(message_of([&] { prepare(molecule); }).find("it: a hydrogen of the file is none of its residue") !=
+  CHECK(message_of([&] { prepare(molecule); }).find("it: an atom of the file is none of its residue's atoms") !=
+        std::string::npos);
+  program(
+      "echo 'WARNING:Residue ASN A 2 has non-integer charge:  -0.3'; echo 'WARNING:Residue ILE A 3 has non-integer "
+      "charge:  0.1'; echo 'ValueError: non-integer charge'; exit 1");
+  CHECK(message_of([&] {
+          prepare(molecule);
+        }).find("it: the sum of the charges is not a whole number (ASN 2 of chain A, ILE 3 of chain A); complete") !=
+        std::string::npos);
+  program("echo 'Too few atoms present to reconstruct or cap residue ILE A 3 in structure! This error is'; exit 1");
+  CHECK(message_of([&] {
+          prepare(molecule);
+        }).find("it: a residue has too few atoms to place the missing ones by (ILE 3 of chain A); complete") !=
         std::string::npos);
   program("truncate -s 600M output.pqr; sleep 60");
   CHECK(message_of([&] { prepare(molecule); }).find("PDB2PQR wrote more than 512 MB and was ended") !=
@@ -419,6 +471,49 @@ TEST_CASE("prepare_molecule: a name without charges is found before the program 
   CHECK_FALSE(std::filesystem::exists(folder.file("ran")));
 }
 
+TEST_CASE(
+    "prepare_molecule: an amino acid with atoms that its name does not have is charged as a modified one, or named") {
+  const std::string text = lysozyme(1, 30);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  // 4-fluorophenylalanine under the name of phenylalanine.
+  Molecule molecule = read(folder, text);
+  const auto residue = static_cast<std::size_t>(std::find_if(molecule.residues.begin(), molecule.residues.end(),
+                                                             [](const Residue& r) { return r.name == "PHE"; }) -
+                                                molecule.residues.begin());
+  const std::string label = "PHE " + std::to_string(molecule.residues[residue].number) + " of chain A";
+  Vec3d cz{}, cg{};
+  for (std::size_t i = 0; i < molecule.size(); ++i) {
+    if (static_cast<std::size_t>(molecule.atoms[i].residue) != residue) continue;
+    if (molecule.atoms[i].name == "CZ") cz = molecule.positions[i];
+    if (molecule.atoms[i].name == "CG") cg = molecule.positions[i];
+  }
+  constexpr double kBond_A = 1.35;
+  Atom fluorine;
+  fluorine.name = fluorine.element = "F";
+  fluorine.residue = static_cast<std::int32_t>(residue);
+  molecule.atoms.push_back(fluorine);
+  molecule.positions.push_back(cz + kBond_A / norm(cz - cg) * (cz - cg));
+  molecule.radii.push_back(0);
+  ChargeOptions files = without_cache();
+  files.ligands_auto = false;
+  const std::string selection = "//A/" + std::to_string(molecule.residues[residue].number) + "/F";
+  CHECK(message_of([&] { prepare_molecule(molecule, files, {}, Progress()); })
+            .find("in.pdb: 1 atom gets no charge from PDB2PQR's force field parse: " + label +
+                  " (first atom F); let Open Babel make them") == 0);
+  CHECK(message_of([&] { prepare_molecule(molecule, files, {}, Progress()); })
+            .find("charges for all atoms (topology FILE, charges-from FILE or a PQR), or drop them (leave-out " +
+                  selection + ")") != std::string::npos);
+  if (find_open_babel().empty()) return;
+  const Prepared prepared = prepare(molecule);
+  CHECK(prepared.preparation.groups ==
+        std::vector<std::string>{label +
+                                 ": +0 e, in its chain, by Open Babel (Gasteiger's charges, pH 7), since PHE has "
+                                 "no F"});
+  CHECK(prepared.preparation.net_charge ==
+        doctest::Approx(prepare(read(folder, text)).preparation.net_charge).epsilon(1e-4));
+}
+
 TEST_CASE("prepare_molecule: DNA under the names of before 2007 is prepared, thymine's methyl group too") {
   const std::string path = "/usr/share/doc/theseus/examples/1s40.pdb.gz";
   if (!std::filesystem::exists(path) || !has_pdb2pqr()) return;
@@ -430,6 +525,74 @@ TEST_CASE("prepare_molecule: DNA under the names of before 2007 is prepared, thy
   CHECK(prepared.preparation.net_charge == doctest::Approx(-10).epsilon(1e-3));  // ten phosphates
   CHECK(prepared.preparation.renamed.size() == 11);
   CHECK_FALSE(prepared.preparation.propka);
+}
+
+TEST_CASE(
+    "prepare_molecule: a protein and DNA under one chain's name are prepared as two molecules, and a note says so") {
+  const std::string path = "/usr/share/doc/theseus/examples/1s40.pdb.gz";
+  if (!std::filesystem::exists(path) || !has_pdb2pqr()) return;
+  const Molecule apart = read_structure(path, {1, true, false, {}});
+  Molecule merged = apart;
+  std::int32_t number = 99;  // which the protein has, too
+  for (Residue& residue : merged.residues) {
+    if (residue.chain == "B") residue.number = ++number;
+    residue.chain = "A";
+  }
+  const Prepared two = prepare(apart), one = prepare(merged);
+  CHECK(one.molecule.charges == two.molecule.charges);
+  CHECK(one.preparation.added == two.preparation.added);
+  CHECK(one.preparation.n_hydrogens_added == two.preparation.n_hydrogens_added);
+  CHECK(one.preparation.net_charge == doctest::Approx(std::round(one.preparation.net_charge)).epsilon(1e-4));
+  REQUIRE(one.preparation.notes.size() == two.preparation.notes.size() + 1);
+  CHECK(one.preparation.notes.back() ==
+        "chain A has 2 molecules, each with ends of its own; those after the first begin with DG 100 of chain A");
+  // A ligand has no molecule of its own, and a chain of one has one.
+  CHECK(pieces_of_chains(apart) == std::vector<std::size_t>(apart.residues.size(), 0));
+  CHECK(pieces_of_chains(merged).back() == 1);
+}
+
+TEST_CASE("pieces_of_chains: nucleotides that are not bound begin anew, also where atoms at the bond are missing") {
+  Molecule dna;
+  const auto add = [&](int number, double x, const std::string& without) {
+    dna.residues.push_back({"DA", "A", number, ' '});
+    for (const auto& [name, at] :
+         {std::pair<std::string, double>("P", 0), {"O5'", 1.5}, {"C5'", 2}, {"C3'", 3}, {"O3'", 4}}) {
+      if (without.find(name) != std::string::npos) continue;
+      Atom atom;
+      atom.name = name;
+      atom.residue = static_cast<std::int32_t>(dna.residues.size() - 1);
+      dna.atoms.push_back(atom);
+      dna.positions.push_back({x + at, 0, 0});
+    }
+  };
+  add(1, 0, "P");
+  add(2, 5.6, "");
+  add(3, 11.2, "P O3'");
+  add(4, 16.8, "");
+  add(14, 40, "O3'");
+  add(15, 60, "P O5'");
+  CHECK(pieces_of_chains(dna) == std::vector<std::size_t>{0, 0, 0, 0, 1, 2});
+}
+
+TEST_CASE("prepare_molecule: two proteins under one chain's name, of which the second begins at a lower number") {
+  const std::string text = lysozyme(1, 30);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  const Molecule one = read(folder, text);
+  Molecule two = one;
+  for (const Residue& residue : one.residues) two.residues.push_back(residue);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    two.atoms.push_back(one.atoms[i]);
+    two.atoms.back().residue += static_cast<std::int32_t>(one.residues.size());
+    two.positions.push_back(one.positions[i] + Vec3d{100, 0, 0});
+    two.radii.push_back(one.radii[i]);
+  }
+  const Prepared single = prepare(one), both = prepare(two);
+  CHECK(both.preparation.net_charge == doctest::Approx(2 * single.preparation.net_charge).epsilon(1e-4));
+  CHECK(both.molecule.size() == 2 * single.molecule.size());
+  CHECK(both.molecule.residues.size() == two.residues.size());
+  // A gap within a chain is none: its numbers rise.
+  CHECK(pieces_of_chains(read(folder, lysozyme(1, 5) + lysozyme(20, 25))) == std::vector<std::size_t>(11, 0));
 }
 
 TEST_CASE("force_field_for: AMBER where there are nucleotides, one force field for both states") {

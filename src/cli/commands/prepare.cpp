@@ -95,8 +95,8 @@ Verb add_prepare(CLI::App& app) {
   auto a = std::make_shared<PrepareArguments>();
   CLI::App* parser = app.add_subcommand("prepare", "Add hydrogens, charges and radii to a structure");
   parser->footer(
-      "Runs PDB2PQR (Debian: pdb2pqr) with PROPKA. The verbs that compare do the same for structures without "
-      "charges.\n\n"
+      "Runs PDB2PQR (Debian: pdb2pqr) with PROPKA, and Open Babel (Debian: openbabel) for ligands. The verbs that "
+      "compare do the same for structures without charges.\n\n"
       "Writes OUT.pqr, and OUT.json with what was added, repaired and protonated.");
   parser->add_option("IN", a->input, "Structure: PDB, mmCIF, GRO or PQR")->required();
   parser->add_option("-o,--output", a->output, "PQR file to write; IN.pqr in the working folder");

@@ -2,6 +2,7 @@
 #include "compare/stages/potentials.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -100,6 +101,24 @@ double noise_of_residues(const StatesToMap& states, const ComparedSide& source, 
   for (std::size_t r = 0; r < itself.size(); ++r) itself[r] = target_of[r] < 0 ? -1 : static_cast<std::int32_t>(r);
   set_own_differences(rows, own, own_on(states, source, target_of), itself);
   return rms_own_difference(rows);
+}
+
+/// Whether both states have the same atoms at the same places with the same charges, and the potentials that follow.
+bool is_one_state(const StatesToMap& states, const std::vector<ResidueRow>& rows, double rms_potential) {
+  constexpr double kRounding_A = 1e-4, kRoundingShare = 1e-3;
+  const Molecule &a = states.source, &b = states.target;
+  return a.size() == b.size() && states.alignment.pairing.pairs.size() == a.size() && a.charges == b.charges &&
+         a.radii == b.radii && states.alignment.rmsd_A <= kRounding_A &&
+         std::none_of(rows.begin(), rows.end(), [&](const ResidueRow& row) {
+           return std::fabs(row.mean_signed_difference) > kRoundingShare * rms_potential;
+         });
+}
+
+Warning one_state_warning() {
+  return {
+      "source and target have the same atoms at the same places with the same charges: every difference is zero but "
+      "for rounding",
+      false};
 }
 
 Warning noise_warning(double differences, double noise, PotentialUnit unit) {
@@ -211,7 +230,10 @@ ResidueAgreement check_residues_of(const StatesToMap& states, const ComparedSide
                  noise = noise_of_residues(states, source, own, target_of, rows);
     constexpr double kNoiseFactor = 2;
     applies = differences > kNoiseFactor * noise;
-    if (!applies) agreement.warnings.push_back(noise_warning(differences, noise, unit));
+    if (!applies)
+      agreement.warnings.push_back(is_one_state(states, rows, check.rms_potential)
+                                       ? one_state_warning()
+                                       : noise_warning(differences, noise, unit));
   }
   if (applies) agreement.check = check;
   agreement.is_not_checked = !applies;

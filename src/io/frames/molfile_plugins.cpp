@@ -23,10 +23,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What ends the names of topologies and trajectories. VMD has no reader of GROMACS' tpr; MDAnalysis has one.
-constexpr const char* kEndings[] = {"dcd",    "xtc",       "trr",  "nc",      "ncdf",   "netcdf", "psf", "prmtop",
-                                    "parm7",  "top",       "rst7", "g96",    "crd",    "trj", "mdcrd",
-                                    "crdbox", "lammpstrj", "xyz",  "h5",      "binpos", "coor",   "dtr", "stk",
-                                    "mol2",   "car",       "cor",  "namdbin", "tpr"};
+constexpr const char* kEndings[] = {"dcd",    "xtc",    "trr",       "nc",   "ncdf", "netcdf",  "psf",
+                                    "prmtop", "parm7",  "top",       "rst7", "g96",  "crd",     "trj",
+                                    "mdcrd",  "crdbox", "lammpstrj", "xyz",  "h5",   "binpos",  "coor",
+                                    "dtr",    "stk",    "mol2",      "car",  "cor",  "namdbin", "tpr"};
 
 std::string lower(std::string text) {
   for (char& letter : text) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));

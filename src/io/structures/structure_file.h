@@ -1,5 +1,5 @@
-// structure_file.h: molecules from structure files (PQR, PDB, mmCIF, GRO), distinguished by content; their models, or the
-// frames of a trajectory with the atoms of another file, one after the other.
+// structure_file.h: molecules from structure files (PQR, PDB, mmCIF, GRO), distinguished by content; their models, or
+// the frames of a trajectory with the atoms of another file, one after the other.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,8 @@ namespace espdiff {
 class CoordinateFile;
 class StructureModels;
 
-/// Reads one conformation. The format is found from the content: a PQR, PDB, mmCIF or GRO under any name, also packed by
-/// gzip, is read as what it is. Atoms keep file order. Alternate locations: the one of highest mean occupancy in the
+/// Reads one conformation. The format is found from the content: a PQR, PDB, mmCIF or GRO under any name, also packed
+/// by gzip, is read as what it is. Atoms keep file order. Alternate locations: the one of highest mean occupancy in the
 /// residue (the first on ties). Models: MODEL records; without them (PDB, PQR) atoms that continue after END are the
 /// next model. Radii: the file's (PQR), otherwise Bondi's by element. Charges: the file's, otherwise none. Unit:
 /// elementary charge.

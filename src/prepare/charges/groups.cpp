@@ -183,6 +183,12 @@ void charge_other_ligand(Groups& groups, Molecule& group, const Molecule& molecu
                             ", to which its charges were shifted evenly; a MOL2 file of it would be exact");
 }
 
+std::string names_in_words(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 std::string guess_in_words(const std::vector<std::string>& ligands) {
   constexpr std::size_t kMostNamed = 6;
   std::string names;
@@ -212,8 +218,8 @@ void keep_torn_chains(const std::vector<ResidueKind>& kinds, std::vector<GroupSo
 bool is_free_ion(const Molecule& molecule, std::size_t ion, const std::vector<GroupSource>& sources,
                  const std::vector<ResidueKind>& kinds) {
   constexpr double kTouch_A = 5;
-  const auto parameters = ion_parameters(
-      molecule.residues[static_cast<std::size_t>(molecule.atoms[ion].residue)].name, molecule.atoms[ion].element);
+  const auto parameters = ion_parameters(molecule.residues[static_cast<std::size_t>(molecule.atoms[ion].residue)].name,
+                                         molecule.atoms[ion].element);
   if (!parameters || std::fabs(parameters->charge) != 1) return false;
   for (std::size_t i = 0; i < molecule.size(); ++i) {
     const auto r = static_cast<std::size_t>(molecule.atoms[i].residue);
@@ -288,9 +294,11 @@ Groups charge_groups(const Molecule& molecule, const std::vector<GroupSource>& s
           agrees_with_formula(groups, molecule, modified, net_charge, sources[r] == GroupSource::kModified);
       append_residue(groups.modified, modified);
       groups.guessed.push_back(label + " (" + in_elementary_charges(net_charge) + ")");
-      groups.lines.push_back(label + ": " + in_elementary_charges(net_charge) +
-                             ", in its chain, by Open Babel (Gasteiger's charges, pH " + formatted("%g", options.ph) +
-                             (agrees ? "; bonds agree with the file's formula)" : ")"));
+      const std::vector<std::string> foreign = foreign_atoms(molecule, r, atoms[r]);
+      groups.lines.push_back(
+          label + ": " + in_elementary_charges(net_charge) + ", in its chain, by Open Babel (Gasteiger's charges, pH " +
+          formatted("%g", options.ph) + (agrees ? "; bonds agree with the file's formula)" : ")") +
+          (foreign.empty() ? std::string() : ", since " + residue.name + " has no " + names_in_words(foreign)));
       continue;
     }
     if (sources[r] == GroupSource::kAdditive || sources[r] == GroupSource::kTorn) {

@@ -18,10 +18,11 @@ enum class GroupSource { kNone, kIon, kGas, kHaem, kAdditive, kOpenBabel, kPhosp
 
 /// [residue] of the groups beside the chains: ions of one atom by ion_parameters(); gases (O2, CO, NO,
 /// Xe, Kr, Ar), which get no charge; haem (HEM, HEC); additives by a list of names, which are left out, as ions of one
-/// charge are that lie 5 Angstrom and more from everything else; every other group by Open Babel, if options.ligands_auto and it is there, as a kCap
-/// where it is bound to the end of a chain next to it (is_bound_as_cap()). kNone for all that PDB2PQR charges or that
-/// gets no charge: chains, caps, ligands with a MOL2 file. Amino acids by amino_acid_source(), of which torn ones are
-/// left out as additives are, unless they are more than a tenth.
+/// charge are that lie 5 Angstrom and more from everything else; every other group by Open Babel, if
+/// options.ligands_auto and it is there, as a kCap where it is bound to the end of a chain next to it
+/// (is_bound_as_cap()). kNone for all that PDB2PQR charges or that gets no charge: chains, caps, ligands with a MOL2
+/// file. Amino acids by amino_acid_source(), of which torn ones are left out as additives are, unless they are more
+/// than a tenth.
 /// @param ligand_of [residue] nonnegative where a MOL2 file has its charges
 std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vector<std::int32_t>& ligand_of,
                                        const ChargeOptions& options);

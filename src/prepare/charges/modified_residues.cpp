@@ -132,12 +132,41 @@ void name_neutral_acids(Molecule& molecule, Preparation& preparation) {
   if (std::find(keep.begin(), keep.end(), false) != keep.end()) molecule = keep_atoms(molecule, keep);
 }
 
-/// GROMACS names the oxygens at the end of a chain O1 and O2 (GROMOS, OPLS), or OC1 and OC2 (AMBER).
+/// GROMACS gives groups whose hydrogens are virtual sites their mass at places that are no atoms: MN1, MNZ2, MCB1.
+void drop_mass_centres(Molecule& molecule, Preparation& preparation) {
+  std::vector<bool> keep;
+  std::string first;
+  for (const Atom& atom : molecule.atoms) {
+    const Residue& residue = molecule.residues[static_cast<std::size_t>(atom.residue)];
+    keep.push_back(!atom.element.empty() || atom.name.size() < 3 || atom.name.front() != 'M' ||
+                   !is_known_amino_acid(residue.name));
+    if (!keep.back() && first.empty()) first = atom.name + " of " + residue_in_words(residue);
+  }
+  const auto n_dropped = std::count(keep.begin(), keep.end(), false);
+  if (n_dropped == 0) return;
+  molecule = keep_atoms(molecule, keep);
+  preparation.notes.push_back(std::to_string(n_dropped) +
+                              " mass centres of GROMACS, which are no atoms and have no charge, were left out (first " +
+                              first + ")");
+}
+
+/// GROMACS names the oxygens at the end of a chain O1 and O2 (GROMOS, OPLS), or OC1 and OC2 (AMBER). Whatever the name,
+/// a second oxygen at C is OXT.
 void name_end_oxygens(Molecule& molecule) {
+  constexpr double kBond_A = 1.5;
   constexpr std::pair<const char*, const char*> kNames[] = {{"O1", "O2"}, {"OC1", "OC2"}};
   const auto atoms = atoms_of_residues(molecule);
   for (std::size_t r = 0; r < atoms.size(); ++r) {
-    if (!is_known_amino_acid(molecule.residues[r].name) || atom_named(molecule, atoms[r], "O")) continue;
+    if (!is_known_amino_acid(molecule.residues[r].name)) continue;
+    if (atom_named(molecule, atoms[r], "O")) {
+      const std::optional<std::size_t> c = atom_named(molecule, atoms[r], "C");
+      for (const std::size_t i : atoms[r]) {
+        if (c && molecule.atoms[i].element == "O" && normalized_atom_name(molecule.atoms[i].name) != "O" &&
+            norm(molecule.positions[i] - molecule.positions[*c]) < kBond_A)
+          molecule.atoms[i].name = "OXT";
+      }
+      continue;
+    }
     for (const auto& [first, second] : kNames) {
       const auto o = atom_named(molecule, atoms[r], first), oxt = atom_named(molecule, atoms[r], second);
       if (!o || !oxt) continue;
@@ -307,6 +336,7 @@ void rename_residues(Molecule& molecule, Preparation& preparation) {
   replace_selenomethionine(molecule, preparation);
   name_charged_residues(molecule, preparation);
   name_nucleotides(molecule, preparation);
+  drop_mass_centres(molecule, preparation);
   name_neutral_acids(molecule, preparation);
   name_end_oxygens(molecule);
   name_caps(molecule, preparation);
@@ -318,6 +348,19 @@ bool is_known_amino_acid(const std::string& name) {
                                                       "KCX", "LLP", "HYP", "SEP", "TPO", "PTR", "TYS"};
   const char letter = residue_letter(name);
   return letter >= 'A' && letter <= 'Z' && modified.count(name) == 0;
+}
+
+std::vector<std::string> foreign_atoms(const Molecule& molecule, std::size_t residue,
+                                       const std::vector<std::size_t>& atoms) {
+  std::vector<std::string> foreign;
+  if (!is_known_amino_acid(molecule.residues[residue].name)) return foreign;
+  const char letter = residue_letter(molecule.residues[residue].name);
+  for (const std::size_t i : atoms) {
+    const Atom& atom = molecule.atoms[i];
+    if (!is_proton(atom) && !is_heavy_atom_of(letter, normalized_atom_name(atom.name, letter)))
+      foreign.push_back(atom.name);
+  }
+  return foreign;
 }
 
 GroupSource amino_acid_source(const Molecule& molecule, std::size_t residue, const std::vector<std::size_t>& atoms,
@@ -332,7 +375,7 @@ GroupSource amino_acid_source(const Molecule& molecule, std::size_t residue, con
     return backbone.count(molecule.atoms[i].name) > 0;
   });
   if (n_placed < kFewestPlaced) return GroupSource::kTorn;
-  if (is_known_amino_acid(name)) return GroupSource::kNone;
+  if (is_known_amino_acid(name) && foreign_atoms(molecule, residue, atoms).empty()) return GroupSource::kNone;
   const std::size_t n_phosphate = count_if([&](std::size_t i) { return is_phosphate_atom(molecule.atoms[i]); });
   if (phosphorylated(name) != nullptr && n_phosphate == kPhosphateAtoms) return GroupSource::kPhosphate;
   return ligands_auto ? GroupSource::kModified : GroupSource::kNone;
@@ -424,6 +467,7 @@ void restore_residues(Molecule& prepared, const Molecule& before, const std::vec
   }
   if (of_before.empty()) return;
   for (std::size_t r = 0; r < modified.residues.size(); ++r) of_modified[key_of(modified.residues[r])] = r;
+  const Molecule known = with_known_residues(before, sources);
   const auto atoms = atoms_of_residues(prepared), atoms_before = atoms_of_residues(before),
              atoms_modified = atoms_of_residues(modified);
   Molecule restored;
@@ -432,7 +476,10 @@ void restore_residues(Molecule& prepared, const Molecule& before, const std::vec
   restored.left_out = prepared.left_out;
   for (std::size_t r = 0; r < prepared.residues.size(); ++r) {
     Molecule one = residue_alone(prepared, r, atoms[r]);
-    const auto found = of_before.find(key_of(prepared.residues[r]));
+    auto found = of_before.find(key_of(prepared.residues[r]));
+    // Another molecule under the chain's name may have the number.
+    if (found != of_before.end() && prepared.residues[r].name != known.residues[found->second].name)
+      found = of_before.end();
     if (found != of_before.end() && sources[found->second] == GroupSource::kPhosphate) {
       const std::size_t b = found->second;
       add_phosphate(one, residue_alone(before, b, atoms_before[b]), *phosphorylated(before.residues[b].name));

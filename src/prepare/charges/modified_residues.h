@@ -16,13 +16,18 @@ struct Preparation;
 /// the charged residues of Insight II (AR+, LY+, AS-, GL-) those of the PDB; nucleotides of CHARMM (ADE) and
 /// deoxynucleotides under the names of RNA, as in files of before 2007, those of their sugar; ASP and GLU with a proton
 /// at the carboxyl group are ASH and GLH, and lose it, since PDB2PQR places it; caps as by name_caps(); GROMACS' O1 and
-/// O2 at the end of a chain are O and OXT. Drops the phosphate at the 5' end of a chain, with a warning: no force field
-/// has one.
+/// O2 at the end of a chain are O and OXT, and so is another oxygen that is bound to C. Drops GROMACS' mass centres of
+/// virtual sites, with a note, and the phosphate at the 5' end of a chain, with a warning: no force field has one.
 void rename_residues(Molecule& molecule, Preparation& preparation);
+
+/// The names of heavy atoms that an amino acid of this name does not have: a phosphate on a cysteine that is named CYS.
+/// Empty for other residues.
+std::vector<std::string> foreign_atoms(const Molecule& molecule, std::size_t residue,
+                                       const std::vector<std::size_t>& atoms);
 
 /// Where the charges of an amino acid come from: kNone for those that the force fields have. kPhosphate for SEP, TPO
 /// and PTR with all atoms of their phosphate. kTorn where fewer than three of N, CA, C, O and CB are there, by which
-/// the others could be placed. kModified for other names, if options.ligands_auto.
+/// the others could be placed. kModified for other names, and with foreign_atoms(), if options.ligands_auto.
 /// @param atoms of the residue
 GroupSource amino_acid_source(const Molecule& molecule, std::size_t residue, const std::vector<std::size_t>& atoms,
                               bool ligands_auto);

@@ -32,6 +32,7 @@
 #include "prepare/charges/closed_chains.h"
 #include "prepare/charges/ligand.h"
 #include "prepare/charges/modified_residues.h"
+#include "prepare/charges/open_babel.h"
 #include "prepare/charges/separate_atoms.h"
 #include "system/python_start.h"
 
@@ -45,30 +46,32 @@ constexpr double kTimeLimitSeconds = 3600;
 /// Of the file it writes: a line for each of the most atoms that are read.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{512} << 20;
 
-/// Chains with one character for PDB2PQR, and numbers that fit its columns.
+/// Chains with one character for PDB2PQR, a character for each of their pieces, and numbers that fit its columns.
 class Renumbering {
  public:
   explicit Renumbering(const Molecule& molecule) : original_(molecule.residues) {
     const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
-    std::map<std::string, char> names;
+    const std::vector<std::size_t> pieces = pieces_of_chains(molecule);
+    std::map<std::pair<std::string, std::size_t>, char> names;
     std::set<char> taken;
     std::set<std::string> renumbered;
     for (const Residue& residue : original_) {
       constexpr std::int32_t kLow = -999, kHigh = 9999;
       if (residue.insertion_code != ' ' || residue.number < kLow || residue.number > kHigh)
         renumbered.insert(residue.chain);
-      if (residue.chain.size() == 1 && names.emplace(residue.chain, residue.chain[0]).second)
+      if (residue.chain.size() == 1 && names.emplace(std::pair(residue.chain, 0), residue.chain[0]).second)
         taken.insert(residue.chain[0]);
     }
-    for (const Residue& residue : original_) {
-      if (names.count(residue.chain) > 0) continue;
+    for (std::size_t r = 0; r < original_.size(); ++r) {
+      const std::pair piece(original_[r].chain, pieces[r]);
+      if (names.count(piece) > 0) continue;
       const auto free =
           std::find_if(letters.begin(), letters.end(), [&](char letter) { return taken.count(letter) == 0; });
       if (free == letters.end())
         throw InputError(molecule.name +
                          ": has more than 62 chains, which a PDB file cannot distinguish; select some (" +
                          option("select", "//A") + ")");
-      names[residue.chain] = *free;
+      names[piece] = *free;
       taken.insert(*free);
     }
     std::map<std::string, std::int32_t> last;
@@ -78,10 +81,8 @@ class Renumbering {
         residue.number = ++last[residue.chain];
         residue.insertion_code = ' ';
       }
-      residue.chain = std::string(1, names.at(residue.chain));
-      if (!index_.emplace(std::tuple(residue.chain, residue.number), r).second &&
-          renumbered.count(original_[r].chain) == 0)
-        doubled_.insert(original_[r].number);
+      residue.chain = std::string(1, names.at({residue.chain, pieces[r]}));
+      index_.emplace(std::tuple(residue.chain, residue.number), r);
       residues_.push_back(residue);
     }
   }
@@ -98,7 +99,6 @@ class Renumbering {
   const std::vector<Residue> original_;
   std::vector<Residue> residues_;
   std::map<std::tuple<std::string, std::int32_t>, std::size_t> index_;
-  std::set<std::int32_t> doubled_;
 };
 
 /// The molecule without water and, where states are given, without the hydrogens of chains, which are added again.
@@ -154,14 +154,8 @@ Molecule with_left_out_groups(const Molecule& molecule) {
   return whole;
 }
 
-/// The PDB file that PDB2PQR reads.
-std::string pdb_text(Molecule molecule, const Renumbering& renumbering, const std::vector<std::string>& states) {
-  molecule.residues = renumbering.residues();
-  for (std::size_t r = 0; r < states.size(); ++r) {
-    // Disulfides follow from the geometry.
-    if (!states[r].empty() && states[r] != "CYX" && states[r] != "CYS") molecule.residues[r].name = states[r];
-  }
-  // Atoms of a residue follow each other, also the hydrogens that a ligand got.
+/// Atoms of a residue follow each other, also the hydrogens that a ligand got.
+Molecule by_residue(const Molecule& molecule) {
   std::vector<std::size_t> order(molecule.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -173,8 +167,18 @@ std::string pdb_text(Molecule molecule, const Renumbering& renumbering, const st
     sorted.atoms.push_back(molecule.atoms[i]);
     sorted.positions.push_back(molecule.positions[i]);
   }
+  return sorted;
+}
+
+/// The PDB file that PDB2PQR reads.
+std::string pdb_text(Molecule molecule, const Renumbering& renumbering, const std::vector<std::string>& states) {
+  molecule.residues = renumbering.residues();
+  for (std::size_t r = 0; r < states.size(); ++r) {
+    // Disulfides follow from the geometry.
+    if (!states[r].empty() && states[r] != "CYX" && states[r] != "CYS") molecule.residues[r].name = states[r];
+  }
   std::ostringstream text;
-  write_pdb(text, sorted, std::vector<double>(sorted.size(), 0), {});
+  write_pdb(text, molecule, std::vector<double>(molecule.size(), 0), {});
   return text.str();
 }
 
@@ -205,7 +209,45 @@ struct PropkaError : InputError {
   using InputError::InputError;
 };
 
-constexpr const char* kPropkaMark = "does not seem to contain any";
+/// A residue has an atom by a name that PDB2PQR does not know.
+struct UnknownAtomError : UnchargedError {
+  using UnchargedError::UnchargedError;
+  std::string atom = "all their names";  ///< "HX1 of TYR 2 of chain B", where the log names it
+};
+
+constexpr const char *kPropkaMark = "does not seem to contain any", *kUnknownAtomMark = "Found gap";
+
+/// The atom that a log says it knows no bond of, in a record of the PDB file, whose numbers have five digits.
+std::optional<std::size_t> unknown_atom(const std::string& log, const Molecule& given) {
+  const std::string before = "for atom ";
+  constexpr std::size_t kSerial = 6, kName = 12, kEnd = 16, kSerials = 100000;
+  const std::size_t at = log.find(before, log.find(kUnknownAtomMark));
+  if (at == std::string::npos || log.size() < at + before.size() + kEnd) return std::nullopt;
+  const std::string record = log.substr(at + before.size(), kEnd);
+  std::string name = record.substr(kName);
+  name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
+  const long serial = std::strtol(record.substr(kSerial, kName - kSerial - 1).c_str(), nullptr, 10);
+  for (auto i = static_cast<std::size_t>(std::max(serial - 1, 0L)); i < given.size(); i += kSerials) {
+    if (given.atoms[i].name == name) return i;
+  }
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse_unknown_atom(const std::string& log, const Molecule& given) {
+  const std::optional<std::size_t> atom = unknown_atom(log, given);
+  const Residue residue = atom ? given.residues[static_cast<std::size_t>(given.atoms[*atom].residue)] : Residue();
+  const std::string selection = atom ? atom_selection(residue, {given.atoms[*atom].name}) : "(...)",
+                    name = atom ? given.atoms[*atom].name + " of " + residue_in_words(residue) : "an atom of the file";
+  Message remedy = "; name it as the PDB does, leave it out (" + option("leave-out", selection) +
+                   "), or give charges (" + option("topology", "FILE") + " of a PSF or prmtop, or a PQR)";
+  if (atom) remedy.set_next({"", {{"leave-out", selection}}});
+  UnknownAtomError error(
+      given.name,
+      "has no charges, and PDB2PQR cannot prepare it: " + name + " is none of its residue's atoms by this name", remedy,
+      residue);
+  if (atom) error.atom = name;
+  throw error;
+}
 
 /// The reason in a log, in our words. A text that is not known may name files that are gone, and is not passed on.
 std::string reason_in(const std::string& log) {
@@ -215,7 +257,6 @@ std::string reason_in(const std::string& log) {
       {"Unknown format code 'i'", "more than a tenth of the heavy atoms of its residues are missing"},
       {"missing too many", "more than a tenth of the heavy atoms of its residues are missing"},
       {"does not contain any", "no residue of it is known to the force field"},
-      {"Found gap", "a hydrogen of the file is none of its residue by this name"},
       {"Unable to debump", "atoms overlap, and moving them apart failed"},
       {"while trying to debump", "atoms overlap, and moving them apart failed"},
       {"Too many chains", "it has more chains than PDB2PQR has names for"},
@@ -230,6 +271,44 @@ std::string reason_in(const std::string& log) {
   return "its reason is not known here, and pdb2pqr30 prints it when it is run on the file";
 }
 
+/// The residues that a log names between some words, as "DA B 12".
+/// @param numbered [residue] as the program got it
+std::vector<Residue> residues_in(const std::string& log, const std::string& before, const std::string& after,
+                                 const Molecule& given, const std::vector<Residue>& numbered) {
+  std::vector<Residue> found;
+  std::set<std::size_t> seen;
+  for (std::size_t at = log.find(after); at != std::string::npos; at = log.find(after, at + 1)) {
+    const std::size_t begin = log.rfind(before, at);
+    if (begin == std::string::npos) continue;
+    std::istringstream words(log.substr(begin + before.size(), at - begin - before.size()));
+    std::string name, chain;
+    std::int32_t number = 0;
+    if (!(words >> name >> chain >> number)) continue;
+    for (std::size_t r = 0; r < numbered.size(); ++r) {
+      if (numbered[r].chain == chain && numbered[r].number == number && seen.insert(r).second)
+        found.push_back(given.residues[r]);
+    }
+  }
+  return found;
+}
+
+/// The residues that a reason is about.
+std::vector<Residue> blamed_residues(const std::string& log, const Molecule& given,
+                                     const std::vector<Residue>& numbered) {
+  std::vector<Residue> blamed = residues_in(log, "residue ", " in structure!", given, numbered);
+  return blamed.empty() ? residues_in(log, "Residue ", " has non-integer charge", given, numbered) : blamed;
+}
+
+/// " (DA 1 of chain B, DT 11 of chain B)"
+std::string in_parentheses(const std::vector<Residue>& residues) {
+  constexpr std::size_t kMostNamed = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(residues.size(), kMostNamed); ++i)
+    text += (text.empty() ? " (" : ", ") + residue_in_words(residues[i]);
+  if (residues.size() > kMostNamed) text += " and " + std::to_string(residues.size() - kMostNamed) + " more";
+  return text.empty() ? text : text + ")";
+}
+
 /// "PDB2PQR v3.5.2"
 std::string version_in(const std::string& log) {
   const std::size_t at = log.find("PDB2PQR v");
@@ -238,8 +317,10 @@ std::string version_in(const std::string& log) {
 }
 
 /// Runs the program. The output's first line is a remark with the program's version.
-std::string run_pdb2pqr(const std::string& program, const std::string& name, const std::string& pdb,
-                        const std::string& ligand, const std::vector<std::string>& options, const Progress& progress) {
+/// @param given the atoms of the PDB file, in its order  @param numbered [residue] by the names of that file
+std::string run_pdb2pqr(const std::string& program, const Molecule& given, const std::vector<Residue>& numbered,
+                        const std::string& pdb, const std::string& ligand, const std::vector<std::string>& options,
+                        const Progress& progress) {
   const TemporaryFolder folder;
   ProgramCall call;
   call.words = words_to_start(program);
@@ -253,17 +334,21 @@ std::string run_pdb2pqr(const std::string& program, const std::string& name, con
     std::error_code missing;
     const auto n_bytes = std::filesystem::file_size(folder.file("output.pqr"), missing);
     if (!missing && n_bytes > kMostBytes)
-      throw DeviceError(name + ": PDB2PQR wrote more than " + std::to_string(kMostBytes >> 20) + " MB and was ended");
+      throw DeviceError(given.name + ": PDB2PQR wrote more than " + std::to_string(kMostBytes >> 20) +
+                        " MB and was ended");
   };
   const ProgramResult result = run_program(call);
   std::error_code ignored;
   const std::string log = result.output + result.messages;
   if (result.status != 0 || !std::filesystem::exists(folder.file("output.pqr"), ignored)) {
-    const Message text = name + ": has no charges, and PDB2PQR cannot prepare it: " + reason_in(log) +
-                         "; complete or mend the structure, leave atoms out (" + option("leave-out", "(...)") +
-                         "), or give charges (" + option("topology", "FILE") + " of a PSF or prmtop, or a PQR)";
-    if (log.find(kPropkaMark) != std::string::npos) throw PropkaError(text);
-    throw InputError(text);
+    if (log.find(kUnknownAtomMark) != std::string::npos) refuse_unknown_atom(log, given);
+    const std::vector<Residue> blamed = blamed_residues(log, given, numbered);
+    const Message lack = "has no charges, and PDB2PQR cannot prepare it: " + reason_in(log) + in_parentheses(blamed),
+                  remedy = "; complete or mend the structure, leave atoms out (" + option("leave-out", "(...)") +
+                           "), or give charges (" + option("topology", "FILE") + " of a PSF or prmtop, or a PQR)";
+    if (log.find(kPropkaMark) != std::string::npos) throw PropkaError(given.name + ": " + lack + remedy);
+    if (blamed.empty()) throw InputError(given.name + ": " + lack + remedy);
+    throw UnchargedError(given.name, lack, remedy, blamed.front());
   }
   return "REMARK " + version_in(log) + "\n" + read_input(folder.file("output.pqr")).content;
 }
@@ -326,7 +411,18 @@ std::vector<std::string> used_files(const std::vector<Mol2File>& ligands, const 
   return paths;
 }
 
-void require_residues(const Molecule& molecule) {
+/// Residues of three heavy atoms or more, which ions and what is no molecule by its names do not have.
+std::vector<std::size_t> ligand_residues(const Molecule& molecule) {
+  constexpr std::size_t kFewest = 3;
+  std::vector<std::size_t> n_heavy(molecule.residues.size(), 0), ligands;
+  for (const Atom& atom : molecule.atoms) {
+    const auto r = static_cast<std::size_t>(atom.residue);
+    if (atom.element != "H" && atom.element != "D" && ++n_heavy[r] == kFewest) ligands.push_back(r);
+  }
+  return ligands;
+}
+
+void require_residues(const Molecule& molecule, bool ligands_auto) {
   const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms_of_residues(molecule));
   if (std::any_of(kinds.begin(), kinds.end(), is_polymer)) return;
   if (molecule.residues.empty())
@@ -339,10 +435,18 @@ void require_residues(const Molecule& molecule) {
     if (!names.empty()) names += ", ";
     names += (residue.name.empty() ? "an unnamed residue" : "") + residue_in_words(residue);
   }
-  throw UnchargedError(
-      molecule.name, "has no charges, and no amino acids or nucleotides that PDB2PQR could charge, only " + names,
-      "; give a PQR, or charges (" + option("topology", "FILE") + " or " + option("charges-from", "FILE") + ")",
-      molecule.residues.front());
+  const bool is_there = !find_open_babel().empty(),
+             would_help = (!is_there || !ligands_auto) && !ligand_residues(molecule).empty();
+  Message remedy = "; ";
+  if (would_help)
+    remedy += "let Open Babel charge ligands" +
+              (is_there ? std::string() : ", which is not there: " + std::string(kOpenBabelRemedy)) + " (" +
+              option("ligands", "auto") + "), ";
+  remedy += "give a PQR, or charges (" + option("topology", "FILE") + " or " + option("charges-from", "FILE") + ")";
+  if (would_help) remedy.set_next({is_there ? "" : "apt install openbabel && ", {{"ligands", "auto"}}});
+  throw UnchargedError(molecule.name,
+                       "has no charges, and no amino acids or nucleotides that PDB2PQR could charge, only " + names,
+                       remedy, molecule.residues.front());
 }
 
 }  // namespace
@@ -385,7 +489,7 @@ class Run {
 
  private:
   Molecule run_once(const Molecule& molecule, const std::vector<std::string>& states, const std::string& ligand) {
-    const Molecule whole = with_left_out_groups(molecule);
+    const Molecule whole = by_residue(with_left_out_groups(molecule));
     const Renumbering renumbering(whole);
     const std::string pdb = pdb_text(whole, renumbering, states);
     std::string key = "1 " + identity_of(program_);
@@ -394,7 +498,7 @@ class Run {
     std::optional<std::string> output = options_.use_cache ? find_in_cache(key) : std::nullopt;
     if (!output) {
       all_from_cache_ = false;
-      output = run_pdb2pqr(program_, molecule.name, pdb, ligand, words_, progress_);
+      output = run_pdb2pqr(program_, whole, renumbering.residues(), pdb, ligand, words_, progress_);
       if (options_.use_cache) keep_in_cache(key, *output);
     }
     const std::size_t begin = std::string("REMARK ").size();
@@ -495,6 +599,17 @@ bool is_in_chain(GroupSource source) {
          source == GroupSource::kCap;
 }
 
+/// The program that charges a molecule of ligands and nothing of a chain; empty for others, which need PDB2PQR.
+std::string source_of_ligands(const Molecule& molecule, const std::vector<GroupSource>& sources) {
+  if (std::any_of(sources.begin(), sources.end(), is_in_chain)) return {};
+  std::string source;
+  for (const std::size_t r : ligand_residues(molecule)) {
+    if (sources[r] == GroupSource::kOpenBabel) return "Open Babel";
+    if (sources[r] == GroupSource::kHaem) source = "CHARMM22's charges of haem";
+  }
+  return source;
+}
+
 /// What PDB2PQR charges. The groups that get charges otherwise become left out, so that PROPKA sees them.
 /// @param states [residue] or empty; those of the groups are taken out
 Molecule set_aside(const Molecule& molecule, const std::vector<GroupSource>& sources,
@@ -517,6 +632,23 @@ Molecule set_aside(const Molecule& molecule, const std::vector<GroupSource>& sou
   }
   states = std::move(kept);
   return chains;
+}
+
+/// Chains that were several molecules to PDB2PQR.
+void note_pieces(const Molecule& molecule, std::vector<std::string>& notes) {
+  const std::vector<std::size_t> pieces = pieces_of_chains(molecule);
+  std::map<std::string, std::pair<std::size_t, std::string>> begins;  // of each chain: its pieces, and where they begin
+  for (std::size_t r = 0; r < pieces.size(); ++r) {
+    auto& [n, text] = begins[molecule.residues[r].chain];
+    if (pieces[r] == n) continue;
+    n = pieces[r];
+    text += (text.empty() ? "" : ", ") + residue_in_words(molecule.residues[r]);
+  }
+  for (const auto& [chain, begin] : begins) {
+    if (begin.first > 0)
+      notes.push_back((chain.empty() ? "the chain" : "chain " + chain) + " has " + std::to_string(begin.first + 1) +
+                      " molecules, each with ends of its own; those after the first begin with " + begin.second);
+  }
 }
 
 }  // namespace
@@ -548,20 +680,16 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
                           const std::vector<std::string>& states, const Progress& progress) {
   const auto begun = std::chrono::steady_clock::now();
   const std::string program = find_pdb2pqr();
-  if (program.empty())
-    throw DeviceError(molecule.name + ": has no charges, and PDB2PQR, which assigns them, is not there; " +
-                      kPdb2pqrRemedy);
   Prepared prepared;
   Preparation& done = prepared.preparation;
   done.force_field = force_field_for(molecule, nullptr, options.force_field);
   if (has_kind(molecule, ResidueKind::kNucleotide) && done.force_field == "amber")
     done.notes.emplace_back("force field AMBER, since PARSE has no DNA");
   Molecule before = without_water(molecule, !states.empty());
-  require_residues(before);
+  require_no_beads(before);
   require_separate_atoms(before);
   const bool titrates = has_kind(before, ResidueKind::kAminoAcid), with_propka = states.empty() && titrates;
   done.propka = titrates;
-  if (!titrates) done.notes.emplace_back("no PROPKA, since there are no amino acids, which are all that it titrates");
   std::vector<std::string> kept_states;
   for (std::size_t r = 0; r < states.size(); ++r) {
     if (!is_water_name(molecule.residues[r].name)) kept_states.push_back(states[r]);
@@ -571,26 +699,50 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   for (const std::string& path : options.ligands) ligands.push_back(read_mol2(path));
   const std::vector<std::int32_t> ligand_of = ligands_of_residues(before, ligands);
   const std::vector<GroupSource> sources = group_sources(before, ligand_of, options);
+  const std::string without_chains = source_of_ligands(before, sources);
+  const bool is_alone = !without_chains.empty();
+  if (!is_alone && program.empty())
+    throw DeviceError(molecule.name + ": has no charges, and PDB2PQR, which assigns them, is not there; " +
+                      kPdb2pqrRemedy);
+  if (!is_alone) require_residues(before, options.ligands_auto);
+  if (!titrates && !is_alone)
+    done.notes.emplace_back("no PROPKA, since there are no amino acids, which are all that it titrates");
   require_known_names(before, sources, ligand_of, done.force_field);
   Groups groups = charge_groups(before, sources, options, progress);
   Run run(program, options, done.force_field, with_propka, progress);
   const Molecule chains = set_aside(before, sources, kept_states);
   const Molecule given = add_ligand_hydrogens(chains, ligands, ligands_of_residues(chains, ligands));
+  const auto run_on = [&](const Molecule& atoms) {
+    if (is_alone) return Molecule();
+    try {
+      return run_with_ligands(run, atoms, kept_states, ligands);
+    } catch (const PropkaError&) {
+      run.drop_propka(done.force_field);
+      done.propka = false;
+      done.notes.emplace_back("no PROPKA, which cannot use so short a chain: residues have their usual states at pH 7");
+      return run_with_ligands(run, atoms, kept_states, ligands);
+    }
+  };
   try {
-    prepared.molecule = run_with_ligands(run, given, kept_states, ligands);
-  } catch (const PropkaError&) {
-    run.drop_propka(done.force_field);
-    done.propka = false;
-    done.notes.emplace_back("no PROPKA, which cannot use so short a chain: residues have their usual states at pH 7");
-    prepared.molecule = run_with_ligands(run, given, kept_states, ligands);
+    prepared.molecule = run_on(given);
+  } catch (const UnknownAtomError& error) {
+    // PROPKA's run places all hydrogens anew, whatever their names. Protons of acids are in the residues' names.
+    const Molecule bare = without_water(given, true);
+    if (bare.size() == given.size()) throw;
+    prepared.molecule = run_on(bare);
+    done.notes.push_back("the file's " + std::to_string(given.size() - bare.size()) +
+                         " hydrogens were placed anew, since PDB2PQR does not know " + error.atom +
+                         (done.propka ? "; PROPKA decides the protonation" : ""));
   }
   for (const ClosedChain& chain : closed_chains(given)) {
     const std::string& name = given.residues[chain.front()].chain;
     done.notes.push_back((name.empty() ? "the chain" : "chain " + name) + " is closed, and gets no charged ends");
   }
+  note_pieces(given, done.notes);
   restore_residues(prepared.molecule, before, sources, groups.modified);
   charge_caps(prepared.molecule, before, sources, groups.modified, done.force_field);
   append(prepared.molecule, groups.charged);
+  if (is_alone) prepared.molecule.radii_origin = ValueOrigin::kFile;
   prepared.molecule.name = molecule.name;
   take_knowledge(before, prepared.molecule);
   const std::size_t n_seen = with_left_out_groups(before).residues.size() - before.residues.size();
@@ -602,10 +754,11 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   if (with_propka && done.propka && n_seen > 0)
     done.notes.push_back("PROPKA saw " + std::to_string(n_seen) + (n_seen == 1 ? " group" : " groups") +
                          " beside the chains that the molecule leaves out");
-  done.program = run.version();
+  done.program = is_alone ? without_chains : run.version();
+  if (is_alone) done.force_field = "none";
   done.ph = options.ph;
   done.ligands = used_files(ligands, ligand_of);
-  done.from_cache = run.all_from_cache();
+  done.from_cache = !is_alone && run.all_from_cache();
   compare_with_input(before, prepared.molecule, done);
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return prepared;

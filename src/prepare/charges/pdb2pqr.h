@@ -38,9 +38,11 @@ struct Prepared {
 /// the pH of the options (Dolinsky et al., Nucleic Acids Res. 35, W522 (2007); Olsson et al., J. Chem. Theory Comput.
 /// 7, 525 (2011)). It gets the molecule as a PDB file of one conformation without water. Chains and residue numbers
 /// that its columns or PROPKA's keys cannot hold (long names, insertion codes, more than four digits) are renumbered
-/// for it and restored afterwards. Selenomethionine is charged as methionine. Groups that the molecule leaves out
+/// for it and restored afterwards; pieces_of_chains() are chains of their own. Selenomethionine is charged as
+/// methionine. Hydrogens are placed anew where PDB2PQR does not know their names. Groups that the molecule leaves out
 /// (Molecule::left_out) are in the file, so that PROPKA sees them, and get no charges; so are ions, haem and ligands
-/// that get charges otherwise (charge_groups()), which follow the chains in the result. Additives of the
+/// that get charges otherwise (charge_groups()), which follow the chains in the result, and alone need no
+/// PDB2PQR. Additives of the
 /// crystallization become left out. PROPKA is not run without amino
 /// acids, nor where it refuses a chain as too short. Phosphorylated and other modified residues are those of
 /// restore_residues(). Names that the force field lacks are refused before the program runs.

@@ -25,11 +25,16 @@ struct ResidueAtoms {
   std::size_t n_hydrogens = 0;
 };
 
-std::map<ResidueKey, ResidueAtoms> atoms_by_residue(const Molecule& molecule) {
-  std::map<ResidueKey, ResidueAtoms> all;
+/// Molecules under one chain's name can have numbers in common.
+std::pair<ResidueKey, char> key_with_letter(const Residue& residue) {
+  return {key_of(residue), residue_letter(residue.name)};
+}
+
+std::map<std::pair<ResidueKey, char>, ResidueAtoms> atoms_by_residue(const Molecule& molecule) {
+  std::map<std::pair<ResidueKey, char>, ResidueAtoms> all;
   for (const Atom& atom : molecule.atoms) {
     const Residue& residue = molecule.residues[static_cast<std::size_t>(atom.residue)];
-    ResidueAtoms& of = all[key_of(residue)];
+    ResidueAtoms& of = all[key_with_letter(residue)];
     if (is_hydrogen(atom)) {
       ++of.n_hydrogens;
       continue;
@@ -58,14 +63,15 @@ std::vector<std::string> missing_in(const ResidueAtoms& a, const ResidueAtoms& b
 /// Atoms without charge, by residue.
 struct Uncharged {
   std::vector<std::string> in_words;
-  std::vector<Residue> residues;
+  std::vector<UnchargedResidue> residues;
   std::size_t n_atoms = 0;
   std::string first_atom;
 
-  void add(const Residue& residue, const std::vector<std::string>& atoms) {
+  /// @param is_whole whether no atom of the residue gets a charge
+  void add(const Residue& residue, const std::vector<std::string>& atoms, bool is_whole, bool can_be_made) {
     if (n_atoms == 0) first_atom = atoms.front();
     in_words.push_back(residue_in_words(residue));
-    residues.push_back(residue);
+    residues.push_back({residue, is_whole ? std::vector<std::string>() : atoms, can_be_made});
     n_atoms += atoms.size();
   }
 };
@@ -87,16 +93,46 @@ bool has_nucleotides(const std::string& force_field) {
 }
 
 /// "(AP5,SO4)"
-std::string name_selection(const std::vector<std::string>& names) {
+std::string name_selection(const std::set<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "(" : ",") + name;
   return text + ")";
 }
 
+/// What --leave-out is to drop: ligands and ions by name, of usual residues, which have their name in common with
+/// others, only what gets no charge.
+struct Selected {
+  std::set<std::string> names, all_names;
+  std::string atoms;
+  std::size_t n = 0;
+
+  void add(const UnchargedResidue& residue, bool is_usual) {
+    ++n;
+    all_names.insert(residue.name);
+    if (is_usual)
+      atoms += (atoms.empty() ? "" : " ") + atom_selection(residue, residue.atoms);
+    else
+      names.insert(residue.name);
+  }
+  std::string selection() const {
+    const std::string by_name = names.empty() ? "" : name_selection(names);
+    return by_name + (by_name.empty() || atoms.empty() ? "" : " ") + atoms;
+  }
+};
+
+/// Null where there is no atom of the name.
+const Vec3d* position_of(const Molecule& molecule, const std::vector<std::size_t>& atoms, const char* name) {
+  for (const std::size_t i : atoms) {
+    if (normalized_atom_name(molecule.atoms[i].name) == name) return &molecule.positions[i];
+  }
+  return nullptr;
+}
+
 void add_protonation(const Molecule& after, Preparation& preparation) {
   const std::vector<std::string> states = protonation_states(after);
+  const auto atoms = atoms_of_residues(after);
   for (std::size_t r = 0; r < states.size(); ++r) {
-    if (!is_known_amino_acid(after.residues[r].name)) continue;
+    if (!is_known_amino_acid(after.residues[r].name) || !foreign_atoms(after, r, atoms[r]).empty()) continue;
     const std::string meaning = describe_protonation(states[r]);
     const bool is_histidine = states[r] == "HID" || states[r] == "HIE";
     if (meaning.empty() && !is_histidine) continue;
@@ -107,28 +143,29 @@ void add_protonation(const Molecule& after, Preparation& preparation) {
 
 }  // namespace
 
-Message uncharged_remedy(const std::vector<Residue>& residues, const std::string& force_field) {
-  std::set<std::string> ligands, of_chains;
-  bool all_nucleotides = !has_nucleotides(force_field);
-  for (const Residue& residue : residues) {
+Message uncharged_remedy(const std::vector<UnchargedResidue>& residues, const std::string& force_field) {
+  Selected all, others;  // those that Open Babel cannot make
+  bool all_nucleotides = !has_nucleotides(force_field), any_usual = false;
+  for (const UnchargedResidue& residue : residues) {
     const char letter = residue_letter(residue.name);
-    const bool is_nucleotide = letter >= 'a' && letter <= 'z';
-    const bool can_be_made = !is_nucleotide && !is_known_amino_acid(residue.name) && !is_ion_name(residue.name);
-    (can_be_made ? ligands : of_chains).insert(residue.name);
+    const bool is_nucleotide = letter >= 'a' && letter <= 'z',
+               is_usual = is_nucleotide || is_known_amino_acid(residue.name);
     all_nucleotides = all_nucleotides && is_nucleotide;
+    all.add(residue, is_usual);
+    if (residue.can_be_made || (!is_usual && !is_ion_name(residue.name))) continue;
+    others.add(residue, is_usual);
+    any_usual = any_usual || is_usual;
   }
   if (all_nucleotides) {
     const Message amber = option("force-field", "amber");
     return Message("; take a force field that has nucleotides (" + amber + "), or drop them (" +
-                   option("leave-out", name_selection({of_chains.begin(), of_chains.end()})) + ")")
+                   option("leave-out", name_selection(all.all_names)) + ")")
         .set_next({"", {{"force-field", "amber"}}});
   }
-  std::vector<std::string> all(ligands.begin(), ligands.end());
-  all.insert(all.end(), of_chains.begin(), of_chains.end());
   NextCommand next;
   Message remedy = "; ";
   const bool has_open_babel = !find_open_babel().empty();
-  if (!ligands.empty()) {
+  if (others.n < residues.size()) {
     remedy += "let Open Babel make them" +
               (has_open_babel ? std::string() : ", which is not there: " + std::string(kOpenBabelRemedy)) + " (" +
               option("ligands", "auto") + "), give a MOL2 file of each with hydrogens (" + option("ligand", "FILE") +
@@ -138,34 +175,73 @@ Message uncharged_remedy(const std::vector<Residue>& residues, const std::string
   } else {
     remedy += "give ";
   }
-  // By name, all others of this name would go, too.
-  const bool has_standard = std::any_of(of_chains.begin(), of_chains.end(), [](const std::string& name) {
-    return !is_ion_name(name) && residue_letter(name) != '?';
-  });
-  if (has_standard)
-    return remedy + "charges for all atoms (" + option("topology", "FILE") + ", " + option("charges-from", "FILE") +
-           " or a PQR), or complete these residues";
-  if (!of_chains.empty()) next.options.push_back({"leave-out", name_selection({of_chains.begin(), of_chains.end()})});
+  if (others.n > 0) next.options.push_back({"leave-out", others.selection()});
   remedy += "charges for all atoms (" + option("topology", "FILE") + ", " + option("charges-from", "FILE") +
-            " or a PQR), or drop them (" + option("leave-out", name_selection(all)) + ")";
+            " or a PQR), " + (any_usual ? "complete these residues, or leave these atoms out" : "or drop them") + " (" +
+            option("leave-out", all.selection()) + ")";
   return remedy.set_next(next);
+}
+
+std::string atom_selection(const Residue& residue, const std::vector<std::string>& names) {
+  std::string text = "//" + (residue.chain.empty() ? "*" : residue.chain) + "/" + std::to_string(residue.number);
+  if (residue.insertion_code != ' ') text += std::string(".") + residue.insertion_code;
+  for (const std::string& name : names) text += (&name == &names.front() ? "/" : ",") + name;
+  return text;
+}
+
+std::vector<std::size_t> pieces_of_chains(const Molecule& molecule) {
+  // Of a bond, then of what lies around it where the phosphate was left out or atoms are missing.
+  struct Reach {
+    const char *before, *after;
+    double longest_A;
+  };
+  constexpr Reach kReaches[] = {{"C", "N", 2.5}, {"O3'", "P", 2.5}, {"O3'", "O5'", 4}, {"C3'", "C5'", 6.5}};
+  struct Last {
+    std::size_t residue = 0;
+    ResidueKind kind = ResidueKind::kOther;
+    std::size_t piece = 0;
+  };
+  const auto atoms = atoms_of_residues(molecule);
+  const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
+  const auto is_bound = [&](std::size_t before, std::size_t after) {
+    for (const Reach& reach : kReaches) {
+      const Vec3d *const a = position_of(molecule, atoms[before], reach.before), *const b =
+                                                                                     position_of(molecule, atoms[after],
+                                                                                                 reach.after);
+      if (a != nullptr && b != nullptr) return norm(*a - *b) <= reach.longest_A;
+    }
+    return true;
+  };
+  std::map<std::string, Last> chains;
+  std::vector<std::size_t> pieces;
+  for (std::size_t r = 0; r < kinds.size(); ++r) {
+    const std::string& name = molecule.residues[r].name;
+    const ResidueKind kind = is_cap_name(name)             ? ResidueKind::kAminoAcid
+                             : residue_letter(name) == '?' ? ResidueKind::kOther
+                                                           : kinds[r];
+    Last& last = chains[molecule.residues[r].chain];
+    if (kind != ResidueKind::kOther) {
+      // A break of a protein is a missing loop unless its numbers begin anew.
+      const bool falls = molecule.residues[r].number < molecule.residues[last.residue].number;
+      const bool begins =
+          last.kind != ResidueKind::kOther &&
+          (kind != last.kind || ((kind == ResidueKind::kNucleotide || falls) && !is_bound(last.residue, r)));
+      last = {r, kind, last.piece + (begins ? 1 : 0)};
+    }
+    pieces.push_back(last.piece);
+  }
+  return pieces;
 }
 
 std::vector<std::string> chain_gaps(const Molecule& molecule) {
   constexpr double kLongest_A = 2.5;
   const auto atoms = atoms_of_residues(molecule);
   const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
-  const auto position = [&](std::size_t residue, const char* name) -> const Vec3d* {
-    for (const std::size_t i : atoms[residue]) {
-      if (molecule.atoms[i].name == name) return &molecule.positions[i];
-    }
-    return nullptr;
-  };
   std::vector<std::string> gaps;
   for (std::size_t r = 0; r + 1 < molecule.residues.size(); ++r) {
     const Residue &a = molecule.residues[r], &b = molecule.residues[r + 1];
     if (a.chain != b.chain || kinds[r] != ResidueKind::kAminoAcid || kinds[r + 1] != ResidueKind::kAminoAcid) continue;
-    const Vec3d *const c = position(r, "C"), *const n = position(r + 1, "N");
+    const Vec3d *const c = position_of(molecule, atoms[r], "C"), *const n = position_of(molecule, atoms[r + 1], "N");
     if (c == nullptr || n == nullptr || norm(*c - *n) <= kLongest_A) continue;
     const auto short_name = [](const Residue& residue) {
       const std::string code = residue.insertion_code == ' ' ? "" : std::string(1, residue.insertion_code);
@@ -186,18 +262,19 @@ void require_known_names(const Molecule& before, const std::vector<GroupSource>&
   Uncharged uncharged;
   for (std::size_t r = 0; r < kinds.size(); ++r) {
     const std::string& name = before.residues[r].name;
-    const bool is_known = kinds[r] == ResidueKind::kOther
-                              ? ligand_of[r] >= 0 || is_cap_name(name) || sources[r] != GroupSource::kNone
-                          : kinds[r] == ResidueKind::kAminoAcid
-                              ? sources[r] != GroupSource::kNone || ligand_of[r] >= 0 || is_known_amino_acid(name)
-                              : kinds[r] != ResidueKind::kNucleotide || has_nucleotides(force_field) ||
-                                    (force_field == "parse" && name.front() != 'D' && name.front() != 'T');
+    const std::vector<std::string> foreign = foreign_atoms(before, r, atoms[r]);
+    const bool is_known =
+        kinds[r] == ResidueKind::kOther ? ligand_of[r] >= 0 || is_cap_name(name) || sources[r] != GroupSource::kNone
+        : kinds[r] == ResidueKind::kAminoAcid
+            ? sources[r] != GroupSource::kNone || ligand_of[r] >= 0 || (is_known_amino_acid(name) && foreign.empty())
+            : kinds[r] != ResidueKind::kNucleotide || has_nucleotides(force_field) ||
+                  (force_field == "parse" && name.front() != 'D' && name.front() != 'T');
     if (is_known || atoms[r].empty()) continue;
-    std::vector<std::string> names;
+    std::vector<std::string> names = foreign;
     for (const std::size_t i : atoms[r]) {
-      if (!is_hydrogen(before.atoms[i])) names.push_back(before.atoms[i].name);
+      if (foreign.empty() && !is_hydrogen(before.atoms[i])) names.push_back(before.atoms[i].name);
     }
-    if (!names.empty()) uncharged.add(before.residues[r], names);
+    if (!names.empty()) uncharged.add(before.residues[r], names, foreign.empty(), !foreign.empty());
   }
   if (uncharged.n_atoms > 0) refuse(before, force_field, uncharged);
 }
@@ -207,8 +284,8 @@ void compare_with_input(const Molecule& before, const Molecule& after, Preparati
   Uncharged uncharged;
   static const ResidueAtoms none;
   for (const Residue& residue : before.residues) {
-    const ResidueAtoms& given = of_before.at(key_of(residue));
-    const auto found = of_after.find(key_of(residue));
+    const ResidueAtoms& given = of_before.at(key_with_letter(residue));
+    const auto found = of_after.find(key_with_letter(residue));
     const ResidueAtoms& got = found == of_after.end() ? none : found->second;
     const char letter = residue_letter(residue.name);
     std::vector<std::string> missing = missing_in(given, got, letter), extra = missing_in(got, given, letter);
@@ -218,7 +295,7 @@ void compare_with_input(const Molecule& before, const Molecule& after, Preparati
       preparation.removed.push_back("OXT of " + residue_in_words(residue));
       missing.erase(std::remove_if(missing.begin(), missing.end(), is_end), missing.end());
     }
-    if (!missing.empty()) uncharged.add(residue, missing);
+    if (!missing.empty()) uncharged.add(residue, missing, found == of_after.end(), false);
     if (!extra.empty()) preparation.added.push_back(joined(extra) + " of " + residue_in_words(residue));
     preparation.n_hydrogens_added += got.n_hydrogens > given.n_hydrogens ? got.n_hydrogens - given.n_hydrogens : 0;
   }

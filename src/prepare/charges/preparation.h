@@ -17,11 +17,17 @@ namespace espdiff {
 using ResidueKey = std::tuple<std::string, std::int32_t, char>;
 inline ResidueKey key_of(const Residue& residue) { return {residue.chain, residue.number, residue.insertion_code}; }
 
+/// A residue that gets no charge, or of whose atoms some get none.
+struct UnchargedResidue : Residue {
+  std::vector<std::string> atoms{};  ///< those of an amino acid or a nucleotide that others of its name do not have
+  bool can_be_made = false;          ///< by Open Babel, although it has the name of an amino acid
+};
+
 /// Residues that get no charge. The first one is named, so that who knows the file can add the line.
 struct UnchargedError : InputError {
   /// @param name of the molecule
   UnchargedError(const std::string& name, const Message& lack, const Message& advice, Residue first,
-                 std::vector<Residue> all = {})
+                 std::vector<UnchargedResidue> all = {})
       : InputError(name + ": " + lack + advice),
         text(lack),
         remedy(advice),
@@ -31,18 +37,18 @@ struct UnchargedError : InputError {
   Message text;    ///< without the molecule's name and the remedy
   Message remedy;  ///< begins with "; "
   Residue residue;
-  std::vector<Residue> residues;  ///< empty where no residue of the molecule can be charged
+  std::vector<UnchargedResidue> residues;  ///< empty where no residue of the molecule can be charged
 };
 
 /// What to do about residues without charges: Open Babel for ligands, or a MOL2 file, or charges of all atoms, or to
 /// leave them out; and the command that does the first of these, which installs Open Babel where it is not there.
 /// @param residues of all states  @param force_field of ChargeOptions, not auto
-Message uncharged_remedy(const std::vector<Residue>& residues, const std::string& force_field);
+Message uncharged_remedy(const std::vector<UnchargedResidue>& residues, const std::string& force_field);
 
 /// What PDB2PQR added, repaired and protonated.
 struct Preparation {
-  std::string program;      ///< "PDB2PQR v3.5.2"
-  std::string force_field;  ///< lower case; never auto
+  std::string program;      ///< "PDB2PQR v3.5.2"; "Open Babel" for ligands alone
+  std::string force_field;  ///< lower case; never auto; "none" for ligands alone
   double ph = 7;
   bool propka = true;                ///< whether PROPKA chose protonation states; false where nothing titrates
   std::vector<std::string> ligands;  ///< MOL2 files of residues that were there
@@ -67,6 +73,9 @@ struct Preparation {
 /// @throws UnchargedError naming atoms of `before` without a charge, with the ways on
 void compare_with_input(const Molecule& before, const Molecule& after, Preparation& preparation);
 
+/// Selects atoms of a residue: "//A/107/P,O1P".
+std::string atom_selection(const Residue& residue, const std::vector<std::string>& names);
+
 /// Whether PDB2PQR has charges for all names, as far as names tell: run before the program.
 /// @param sources [residue] where groups get their charges from otherwise
 /// @param ligand_of [residue] nonnegative where a MOL2 file has its charges
@@ -74,6 +83,11 @@ void compare_with_input(const Molecule& before, const Molecule& after, Preparati
 /// @throws UnchargedError as compare_with_input()
 void require_known_names(const Molecule& before, const std::vector<GroupSource>& sources,
                          const std::vector<std::int32_t>& ligand_of, const std::string& force_field);
+
+/// [residue] how often its chain changes between protein and nucleic acid, or begins anew with a nucleotide that is not
+/// bound to the one before, or an amino acid that is not and has a lower number, up to it: files that merge chains have
+/// several molecules under one name. Ligands count with what stands before them.
+std::vector<std::size_t> pieces_of_chains(const Molecule& molecule);
 
 /// Breaks of a chain: C and N of residues that follow each other lie more than 2.5 A apart.
 std::vector<std::string> chain_gaps(const Molecule& molecule);

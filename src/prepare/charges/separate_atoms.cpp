@@ -1,4 +1,4 @@
-// separate_atoms.cpp: counts atoms with too near a neighbour, by cells of that distance.
+// separate_atoms.cpp: counts atoms with too near a neighbour, by cells of that distance, and beads by their names.
 #include "prepare/charges/separate_atoms.h"
 
 #include <array>
@@ -65,6 +65,20 @@ void require_separate_atoms(const Molecule& molecule) {
                    " atoms lie within 0.5 A of another (" + named_atom(molecule, first->first) + " and " +
                    named_atom(molecule, first->second) +
                    "): give coordinates in Angstrom, not in nm, and each chain and model once");
+}
+
+void require_no_beads(const Molecule& molecule) {
+  std::size_t n_beads = 0, first = 0;
+  for (std::size_t i = 0; i < molecule.size(); ++i) {
+    const std::string& name = molecule.atoms[i].name;
+    const bool is_bead = name.rfind("BB", 0) == 0 || name.rfind("SC", 0) == 0 || name == "SHA";
+    if (is_bead && n_beads++ == 0) first = i;
+  }
+  if (2 * n_beads <= molecule.size()) return;
+  throw FormatError(molecule.name, 0,
+                    "has coarse-grained beads (" + named_atom(molecule, first) +
+                        "), which have neither hydrogens nor charges of atoms; give the structure with all atoms, or a "
+                        "PQR with each bead's charge and radius");
 }
 
 }  // namespace espdiff

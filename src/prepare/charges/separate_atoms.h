@@ -1,4 +1,4 @@
-// separate_atoms.h: coordinates that no program can add hydrogens to.
+// separate_atoms.h: what no program can add hydrogens to.
 #pragma once
 
 namespace espdiff {
@@ -9,5 +9,11 @@ struct Molecule;
 /// with a chain on top of itself. PDB2PQR would try to move them apart, for minutes to an hour.
 /// @throws InputError  names the first two
 void require_separate_atoms(const Molecule& molecule);
+
+/// Refuses a molecule of coarse-grained beads: those of MARTINI (BB, SC1), and HADDOCK's of a shape (SHA), by the names
+/// of more than half of its atoms.
+/// @throws FormatError  names the first one; not an InputError, since as atoms the beads have no shape to compare
+/// either
+void require_no_beads(const Molecule& molecule);
 
 }  // namespace espdiff

@@ -1,6 +1,7 @@
 // preparation_json.cpp: the lists of a preparation.
 #include "report/sections/preparation_json.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -49,8 +50,8 @@ nlohmann::ordered_json preparation_json(const Preparation& p) {
 
 void print_preparation(std::ostream& out, const Preparation& p) {
   labelled_line(out, "prepared by",
-                p.program + ", force field " + p.force_field + ", pH " + formatted("%g", p.ph) +
-                    (p.propka ? " (PROPKA)" : "") + (p.from_cache ? ", from the cache" : ""));
+                p.program + (p.force_field == "none" ? "" : ", force field " + p.force_field) + ", pH " +
+                    formatted("%g", p.ph) + (p.propka ? " (PROPKA)" : "") + (p.from_cache ? ", from the cache" : ""));
   labelled_line(out, "atoms",
                 std::to_string(p.n_atoms) + " (" + std::to_string(p.n_atoms_before) + " before, " +
                     std::to_string(p.n_hydrogens_added) + " hydrogens added)");
@@ -64,7 +65,7 @@ void print_preparation(std::ostream& out, const Preparation& p) {
   if (!p.topology_beside.empty())
     labelled_line(out, "not taken", "the charges of " + p.topology_beside + ", which lists the file's atoms");
   list(out, "missing", p.gaps);
-  labelled_line(out, "net charge", formatted("%.4f", p.net_charge) + " e");
+  labelled_line(out, "net charge", formatted("%.4f", std::round(1e4 * p.net_charge) / 1e4 + 0.0) + " e");
 }
 
 }  // namespace espdiff

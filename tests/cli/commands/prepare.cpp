@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "cli/run_espdiff.h"
+#include "io/files/run_program.h"
 
 using espdiff_test::contains;
 using espdiff_test::has_pdb2pqr;
@@ -40,7 +41,7 @@ TEST_CASE("prepare: untidy files give an answer or one line that names file, pla
        "move "
        "it into a model, or delete the MODEL and ENDMDL lines\n"},
       {"bad_pdb/insertion-code.pdb", ":1:" + cannot + "XXX 1a of chain X" + remedy},
-      {"bad_pdb/odd-start.pdb", ":1:" + cannot + "EST 600 of chain A" + remedy},
+      {"bad_pdb/odd-start.pdb", "beside chains   EST 600 of chain A: +0 e, 24 hydrogens added, by Open Babel"},
       {"bad_pdb/short-atom.pdb", ":1:" + cannot + "an unnamed residue 1 of chain X" + remedy}};
   for (const auto& entry : std::filesystem::recursive_directory_iterator(*data)) {
     const std::string file = entry.path().lexically_relative(*data).string();
@@ -49,15 +50,17 @@ TEST_CASE("prepare: untidy files give an answer or one line that names file, pla
     REQUIRE_MESSAGE(answer != answers.end(), "no answer is expected of " << file);
     CAPTURE(file);
     const Outcome outcome = prepared(file);
+    const bool is_ligand = file == "bad_pdb/odd-start.pdb";
+    if (is_ligand && espdiff::find_program("obabel").empty()) continue;
     if (outcome.status == 0) {
       CHECK(contains(outcome.out, answer->second));
+      CHECK(json_of(folder.file("out.json"))["preparation"]["n_atoms"] == (is_ligand ? 44 : 927));
       continue;
     }
     CHECK(outcome.status == 2);
     CHECK(outcome.err == "espdiff: " + entry.path().string() + answer->second);
     CHECK(outcome.out.empty());
   }
-  CHECK(json_of(folder.file("out.json"))["preparation"]["n_atoms"] == 927);
   CHECK(folder.n_files() == 2);
 }
 

@@ -66,17 +66,27 @@ TEST_CASE("coarse lattices are verified: tolerances follow from the spacing") {
   }
 }
 
-TEST_CASE("a state against itself is verified: its residues' correlation is one of noise, and in no file") {
+TEST_CASE("a state against itself differs by rounding, nearly the same one by noise; neither has a correlation") {
   const ScratchFolder folder;
-  write_file(folder.file("a.pqr"), bent_row(0, 12));
-  const std::string prefix = folder.file("self");
-  REQUIRE(run_espdiff("compare " + folder.file("a.pqr") + " " + folder.file("a.pqr") +
-                      " --potential coulomb --device cpu -q --exit-zero -o " + prefix)
-              .status == 0);
-  REQUIRE(contains(read_file(prefix + ".json"), "noise with noise"));
-  const Outcome verified = run_espdiff("verify " + prefix);
-  CAPTURE(verified.out);
-  CHECK(verified.status == 0);
+  const std::string row = bent_row(0, 12);
+  std::string nearly = row;
+  nearly.replace(nearly.find("-0.7000"), 7, "-0.7003");
+  write_file(folder.file("a.pqr"), row);
+  write_file(folder.file("b.pqr"), nearly);
+  for (const bool is_same : {true, false}) {
+    const std::string prefix = folder.file(is_same ? "self" : "nearly");
+    REQUIRE(run_espdiff("compare " + folder.file("a.pqr") + " " + folder.file(is_same ? "a.pqr" : "b.pqr") +
+                        " --potential coulomb --device cpu -q --exit-zero -o " + prefix)
+                .status == 0);
+    const std::string json = read_file(prefix + ".json");
+    CHECK(contains(json,
+                   "source and target have the same atoms at the same places with the same charges: every "
+                   "difference is zero but for rounding") == is_same);
+    CHECK(contains(json, "noise with noise") != is_same);
+    const Outcome verified = run_espdiff("verify " + prefix);
+    CAPTURE(verified.out);
+    CHECK(verified.status == 0);
+  }
 }
 
 TEST_CASE("fields have units of their own, which their columns must have") {

@@ -80,7 +80,7 @@ TEST_CASE("next: charges of PSF files beside structures that nothing else can ch
                     b = folder.write("b.pdb", unknown_residue(12, 0.4));
   const std::string first = folder.write("a.psf", psf_of_unknown(12, 0.5)),
                     second = folder.write("b.psf", psf_of_unknown(12, 0.4));
-  std::string words = "compare " + a + " " + b + " --grid-spacing 1 --pb-spacing 1 --device cpu -q";
+  std::string words = "compare " + a + " " + b + " --grid-spacing 1 --pb-spacing 1 --device cpu -q --ligands files";
   for (const auto& [role, topology] : {std::pair("source", first), std::pair("target", second)}) {
     const Outcome refused = run_espdiff(words);
     CHECK(refused.status == 2);
@@ -93,7 +93,7 @@ TEST_CASE("next: charges of PSF files beside structures that nothing else can ch
   CHECK_MESSAGE((compared.status == 0 || compared.status == 3), compared.err);
   // Another number of atoms is another molecule's.
   folder.write("a.psf", psf_of_unknown(11, 0.5));
-  const Outcome without = run_espdiff("compare " + a + " " + b);
+  const Outcome without = run_espdiff("compare " + a + " " + b + " --ligands files");
   CHECK(without.status == 2);
   CHECK_FALSE(contains(without.err, "beside it"));
 }
@@ -323,11 +323,11 @@ TEST_CASE("next: potential and prepare keep files that are there, and replace th
 
 TEST_CASE("next: without a potential, what needs one is left out too") {
   const ScratchFolder folder;
-  // A ligand that nothing has charges for, and whose place among other options is kept.
+  // Residues that are no ligands, that nothing has charges for, and whose place among other options is kept.
   folder.write("x.pdb",
                "HETATM    1  C1  XQZ A   1       0.000   0.000   0.000  1.00  0.00           C\n"
                "HETATM    2  C2  XQZ A   1       1.500   0.000   0.000  1.00  0.00           C\n"
-               "HETATM    3  O1  XQZ A   1       2.000   1.200   0.000  1.00  0.00           O\n");
+               "HETATM    3  O1  XQZ A   2       2.000   1.200   0.000  1.00  0.00           O\n");
   const std::string in_folder = "cd " + folder.file("") + " &&";
   const Outcome refused = run_espdiff(
       "compare x.pdb x.pdb --patches-of 'potential>1' --field s=field-strength --field h=curvature --causes whole "

@@ -36,8 +36,8 @@ TEST_CASE("read_gro: Angstrom from nm, names, no charges, radii by element") {
 }
 
 TEST_CASE("read_gro: the columns' width follows the decimals, velocities are passed over, line ends of Windows") {
-  const Molecule m = structure_of(
-      "a.gro", "wide\r\n1\r\n    1LIG     C1    1  -0.10125   0.20235  12.30345  0.123456\r\n 1 1 1\r\n");
+  const Molecule m =
+      structure_of("a.gro", "wide\r\n1\r\n    1LIG     C1    1  -0.10125   0.20235  12.30345  0.123456\r\n 1 1 1\r\n");
   CHECK(m.positions[0].x == doctest::Approx(-1.0125).epsilon(1e-12));
   CHECK(m.positions[0].z == doctest::Approx(123.0345).epsilon(1e-12));
 }
@@ -54,8 +54,9 @@ TEST_CASE("read_gro: frames are models, each with its cell") {
   // a = (20, 0, 0) and b = (10, 30, 0)
   CHECK(file.unit_cell(2)->angles.z == doctest::Approx(std::atan2(30.0, 10.0) * 180 / 3.14159265358979));
   CHECK(file.read({2, true, false, {}}).size() == 2);
-  CHECK(message_of([&] { file.read({3, true, false, {}}); }).find("there is no model 3; the file has 2") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          file.read({3, true, false, {}});
+        }).find("there is no model 3; the file has 2") != std::string::npos);
   CHECK(structure_of("a.gro", kTwo.substr(0, kTwo.find("   3.0")) + " 0 0 0\n").size() == 2);
 }
 
@@ -82,8 +83,9 @@ TEST_CASE("read_gro: the line of a residue is told") {
 
 TEST_CASE("read_gro: damaged files are refused with line and remedy") {
   const std::string head = kTwo.substr(0, kTwo.find("   3.0"));
-  CHECK(structure_error("a.gro", head) ==
-        "a.gro:4: the file ends after 2 atoms, and 2 atoms and a box were expected: it seems to be cut; write it again");
+  CHECK(
+      structure_error("a.gro", head) ==
+      "a.gro:4: the file ends after 2 atoms, and 2 atoms and a box were expected: it seems to be cut; write it again");
   CHECK(structure_error("a.gro", head.substr(0, head.find("    7ALA     CA"))).find("after 1 atoms") !=
         std::string::npos);
   std::string count = kTwo;
@@ -92,16 +94,18 @@ TEST_CASE("read_gro: damaged files are refused with line and remedy") {
   CHECK(structure_error("a.gro", count).find("is the number of atoms above right?") != std::string::npos);
   std::string number = kTwo;
   number.replace(number.find("0.250"), 5, "0.2x0");
-  CHECK(structure_error("a.gro", number).find("a.gro:4: x coordinate of atom 'CA' is '0.2x0'; three numbers of nm") == 0);
+  CHECK(structure_error("a.gro", number).find("a.gro:4: x coordinate of atom 'CA' is '0.2x0'; three numbers of nm") ==
+        0);
   std::string cut = kTwo;
   cut.replace(cut.find("  -0.300\n    7ALA     CA"), 9, "\n");
   CHECK(structure_error("a.gro", cut).find("a.gro:3: z coordinate of atom 'N' is ''") == 0);
   CHECK(structure_error("a.gro", kTwo + "next\n x\n").find("a.gro:7: the number of atoms in a GRO file is 'x'") == 0);
-  CHECK(structure_error("a.gro", kTwo + "next\n 1\nALA\n 1 1 1\n").find("a.gro:8: this line of a GRO file has no residue") ==
-        0);
+  CHECK(structure_error("a.gro", kTwo + "next\n 1\nALA\n 1 1 1\n")
+            .find("a.gro:8: this line of a GRO file has no residue") == 0);
   CHECK(structure_error("a.gro", head + " 1 2\n").find("a.gro:5: the box of a GRO file is '1 2'") == 0);
   StructureOptions assembly;
   assembly.assembly = "1";
-  CHECK(message_of([&] { structure_of("a.gro", kTwo, assembly); }).find("is a GRO file, which describes no assemblies") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          structure_of("a.gro", kTwo, assembly);
+        }).find("is a GRO file, which describes no assemblies") != std::string::npos);
 }

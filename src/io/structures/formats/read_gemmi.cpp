@@ -253,8 +253,10 @@ struct MissingColumn {
 };
 
 void add_missing_columns(gemmi::cif::Block& block) {
-  for (const MissingColumn& missing : {MissingColumn{"label_alt_id", ".", nullptr}, {"occupancy", "1", nullptr},
-                                       {"B_iso_or_equiv", "0", nullptr}, {"auth_seq_id", ".", "label_seq_id"}}) {
+  for (const MissingColumn& missing : {MissingColumn{"label_alt_id", ".", nullptr},
+                                       {"occupancy", "1", nullptr},
+                                       {"B_iso_or_equiv", "0", nullptr},
+                                       {"auth_seq_id", ".", "label_seq_id"}}) {
     const std::string tag = std::string("_atom_site.") + missing.name;
     if (block.find_values(tag)) continue;
     std::vector<std::string> column;
