@@ -240,3 +240,20 @@ TEST_CASE("prepare_molecule: coarse-grained beads and those of shapes are named 
   CHECK(beads("SHA", " SHA", " SHB").find("beads") == std::string::npos);
   CHECK(beads("SHA", " SHA", "SHA").find(": has coarse-grained beads (SHA of SHA 1" + rest) != std::string::npos);
 }
+
+TEST_CASE("prepare_molecule: C-alpha atoms alone and backbones without side chains are named as such") {
+  const auto error = [](const std::vector<std::string>& names) {
+    std::string text;
+    int serial = 0;
+    for (int r = 1; r <= 6; ++r) {
+      for (const std::string& name : names) {
+        text += hetatm(++serial, name, "LEU", r, 1.5 * serial, 0, 0, name.substr(1, 1));
+      }
+    }
+    return message_of([&] { prepare_molecule(molecule_of(text), {}, {}, Progress()); });
+  };
+  const std::string rest = ", from which neither charges nor a surface follow; give the structure with all atoms";
+  CHECK(error({" CA"}).find(": has C-alpha atoms only" + rest) != std::string::npos);
+  CHECK(error({" N", " CA", " C", " O"}).find(": has a backbone without side chains" + rest) != std::string::npos);
+  CHECK(error({" N", " CA", " C", " O", " CB", " CG"}).find("backbone") == std::string::npos);
+}

@@ -686,7 +686,7 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   if (has_kind(molecule, ResidueKind::kNucleotide) && done.force_field == "amber")
     done.notes.emplace_back("force field AMBER, since PARSE has no DNA");
   Molecule before = without_water(molecule, !states.empty());
-  require_no_beads(before);
+  require_all_atoms(before);
   require_separate_atoms(before);
   const bool titrates = has_kind(before, ResidueKind::kAminoAcid), with_propka = states.empty() && titrates;
   done.propka = titrates;

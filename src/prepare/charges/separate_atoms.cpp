@@ -1,6 +1,7 @@
 // separate_atoms.cpp: counts atoms with too near a neighbour, by cells of that distance, and beads by their names.
 #include "prepare/charges/separate_atoms.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -67,13 +68,26 @@ void require_separate_atoms(const Molecule& molecule) {
                    "): give coordinates in Angstrom, not in nm, and each chain and model once");
 }
 
-void require_no_beads(const Molecule& molecule) {
-  std::size_t n_beads = 0, first = 0;
+void require_all_atoms(const Molecule& molecule) {
+  std::size_t n_beads = 0, n_alpha = 0, n_backbone = 0, first = 0;
   for (std::size_t i = 0; i < molecule.size(); ++i) {
     const std::string& name = molecule.atoms[i].name;
     const bool is_bead = name.rfind("BB", 0) == 0 || name.rfind("SC", 0) == 0 || name == "SHA";
     if (is_bead && n_beads++ == 0) first = i;
+    if (molecule.atoms[i].element != "C" && molecule.atoms[i].element != "N" && molecule.atoms[i].element != "O")
+      continue;
+    n_alpha += name == "CA" ? 1 : 0;
+    n_backbone += name == "CA" || name == "N" || name == "C" || name == "O" || name == "CB" ? 1 : 0;
   }
+  constexpr std::size_t kLeastResidues = 5;
+  const bool has_long_ones =
+      std::any_of(molecule.residues.begin(), molecule.residues.end(),
+                  [](const Residue& residue) { return residue.name != "GLY" && residue.name != "ALA"; });
+  if (n_alpha >= kLeastResidues && n_backbone == molecule.size() && (has_long_ones || n_alpha == molecule.size()))
+    throw FormatError(molecule.name, 0,
+                      std::string("has ") +
+                          (n_alpha == molecule.size() ? "C-alpha atoms only" : "a backbone without side chains") +
+                          ", from which neither charges nor a surface follow; give the structure with all atoms");
   if (2 * n_beads <= molecule.size()) return;
   throw FormatError(molecule.name, 0,
                     "has coarse-grained beads (" + named_atom(molecule, first) +

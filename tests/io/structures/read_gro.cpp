@@ -46,7 +46,7 @@ TEST_CASE("read_gro: frames are models, each with its cell") {
   const ScratchFolder scratch;
   std::string second = kTwo;
   second.replace(second.find("   3.00000"), std::string::npos, "   2.0 3.0 4.0 0 0 1.0 0 0.0 0.0\n");
-  const StructureFile file(scratch.write("a.gro", kTwo + second));
+  const StructureFile file(scratch.write("a.gro", kTwo + second + "\n \n"));
   CHECK(file.n_models() == 2);
   CHECK(file.unit_cell(1)->lengths == Vec3d{30, 40, 50});
   CHECK(file.unit_cell(1)->angles == Vec3d{90, 90, 90});

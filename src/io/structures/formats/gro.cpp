@@ -32,8 +32,7 @@ struct GroAtom {
 
 struct GroModel {
   std::vector<GroAtom> atoms;
-  std::string_view box;
-  long box_line = 0;
+  std::optional<UnitCell> cell;
   std::size_t n_chains = 0;
 };
 
@@ -90,14 +89,14 @@ Vec3d read_position(const std::string& path, const GroAtom& atom) {
 }
 
 /// Edges in the order of the format: the diagonal, then a's y and z, b's x and z, c's x and y, which may be left out.
-std::optional<UnitCell> read_box(const std::string& path, const GroModel& model) {
+std::optional<UnitCell> read_box(const std::string& path, std::string_view text, long line) {
   std::array<double, 9> box{};
-  const std::vector<std::string_view> words = split_words(model.box);
+  const std::vector<std::string_view> words = split_words(text);
   bool is_box = words.size() == 3 || words.size() == box.size();
   for (std::size_t i = 0; i < words.size() && is_box; ++i) is_box = parse_number(words[i], box[i]);
   if (!is_box)
-    throw FormatError(path, model.box_line,
-                      "the box of a GRO file is " + in_quotes(model.box) +
+    throw FormatError(path, line,
+                      "the box of a GRO file is " + in_quotes(text) +
                           "; three or nine numbers of nm were expected: is the number of atoms above right?");
   const Vec3d a = kAngstromPerNm * Vec3d{box[0], box[3], box[4]}, b = kAngstromPerNm * Vec3d{box[5], box[1], box[6]},
               c = kAngstromPerNm * Vec3d{box[7], box[8], box[2]};
@@ -112,13 +111,12 @@ std::optional<UnitCell> read_box(const std::string& path, const GroModel& model)
   return cell;
 }
 
-bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r\n") == std::string_view::npos; }
-
 /// Lines with their leading blanks, which are columns here.
 struct Lines {
   std::string_view rest;
   long number = 0;  ///< of the line read last, from 1
 
+  bool only_blanks_follow() const { return rest.find_first_not_of(" \t\r\n") == std::string_view::npos; }
   std::string_view next() {
     const std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
@@ -132,11 +130,11 @@ class GroModels : public StructureModels {
   explicit GroModels(FileContent file) : file_(std::move(file)) {
     unify_line_ends(file_.content);
     Lines lines{file_.content};
-    while (!is_blank(lines.rest)) models_.push_back(next_model(lines));
+    while (!lines.only_blanks_follow()) models_.push_back(next_model(lines));
   }
 
   int n_models() const override { return static_cast<int>(models_.size()); }
-  std::optional<UnitCell> unit_cell(int model) const override { return read_box(file_.path, at(model)); }
+  std::optional<UnitCell> unit_cell(int model) const override { return at(model).cell; }
 
   long line_of(int number, const Residue& residue) const override {
     const GroModel& model = at(number);
@@ -198,8 +196,8 @@ class GroModels : public StructureModels {
       model.atoms.push_back(read_names(file_.path, text, lines.number));
     }
     require_line(n);
-    model.box = trimmed(lines.next());
-    model.box_line = lines.number;
+    const std::string_view box = trimmed(lines.next());
+    model.cell = read_box(file_.path, box, lines.number);
     set_chains(model);
     return model;
   }
