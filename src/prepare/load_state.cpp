@@ -216,10 +216,7 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
       state.everything = file.read({structure.model, true, true, structure.assembly});
   }
   state.cell = file.unit_cell(structure.model);
-  // With charges of its solvent the molecule stays where the cell has it.
-  if (state.cell && state.everything.size() == 0 && structure.assembly.empty())
-    state.n_border_bonds = make_whole(state.molecule, *state.cell);
-  state.is_changed = !structure.assembly.empty() || state.n_border_bonds > 0;
+  state.is_changed = !structure.assembly.empty();
   try {
     select_and_charge(state, request, options, progress);
     if (state.preparation) state.preparation->topology_beside = topology_beside(file, structure);
@@ -238,6 +235,9 @@ void select_and_charge(LoadedState& state, const StateRequest& request, const In
   const char* const select_option = select == options.both.select        ? "select"
                                     : request.role == StateRole::kTarget ? "target-select"
                                                                          : "source-select";
+  // What has charges stays where its cell, and the solvent's charges there, have it.
+  if (state.cell && !is_charged(state.molecule) && options.assembly.empty())
+    state.n_border_bonds = make_whole(state.molecule, *state.cell);
   state.whole = state.molecule;
   std::vector<bool> not_dropped(state.whole.size(), true), selected;
   if (!options.leave_out.empty()) {
@@ -255,8 +255,8 @@ void select_and_charge(LoadedState& state, const StateRequest& request, const In
   if (state.preparation) {
     for (const std::string& ligand : state.preparation->ligands) state.charge_files.push_back({"ligand", ligand, {}});
   }
-  state.is_changed = state.is_changed || !select.empty() || state.n_left_out > 0 || state.preparation.has_value() ||
-                     !state.charge_files.empty();
+  state.is_changed = state.is_changed || state.n_border_bonds > 0 || !select.empty() || state.n_left_out > 0 ||
+                     state.preparation.has_value() || !state.charge_files.empty();
 }
 
 LoadedState load_frame(const StructureFile& file, const StructureOptions& structure, const std::string& name,
