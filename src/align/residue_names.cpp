@@ -102,6 +102,33 @@ const char* synonym_of(std::string_view name) {
   return nullptr;
 }
 
+/// Heavy atoms of an amino acid's side chain between blanks; null for other letters.
+const std::string_view* side_chain_of(char letter) {
+  static constexpr std::pair<char, std::string_view> kSideChains[] = {{'A', " CB "},
+                                                                      {'R', " CB CG CD NE CZ NH1 NH2 "},
+                                                                      {'N', " CB CG OD1 ND2 "},
+                                                                      {'D', " CB CG OD1 OD2 "},
+                                                                      {'C', " CB SG "},
+                                                                      {'Q', " CB CG CD OE1 NE2 "},
+                                                                      {'E', " CB CG CD OE1 OE2 "},
+                                                                      {'G', " "},
+                                                                      {'H', " CB CG ND1 CD2 CE1 NE2 "},
+                                                                      {'I', " CB CG1 CG2 CD1 "},
+                                                                      {'L', " CB CG CD1 CD2 "},
+                                                                      {'K', " CB CG CD CE NZ "},
+                                                                      {'M', " CB CG SD CE "},
+                                                                      {'F', " CB CG CD1 CD2 CE1 CE2 CZ "},
+                                                                      {'P', " CB CG CD "},
+                                                                      {'S', " CB OG "},
+                                                                      {'T', " CB OG1 CG2 "},
+                                                                      {'W', " CB CG CD1 CD2 NE1 CE2 CE3 CZ2 CZ3 CH2 "},
+                                                                      {'Y', " CB CG CD1 CD2 CE1 CE2 CZ OH "},
+                                                                      {'V', " CB CG1 CG2 "}};
+  const auto* const row = std::find_if(std::begin(kSideChains), std::end(kSideChains),
+                                       [&](const auto& side_chain) { return side_chain.first == letter; });
+  return row == std::end(kSideChains) ? nullptr : &row->second;
+}
+
 }  // namespace
 
 char residue_letter(const std::string& residue_name) {
@@ -138,31 +165,17 @@ std::string normalized_atom_name(const std::string& atom_name, char letter) {
 
 bool is_heavy_atom_of(char letter, const std::string& atom_name) {
   static constexpr std::string_view kBackbone = " N CA C O OXT ";
-  static constexpr std::pair<char, std::string_view> kSideChains[] = {{'A', " CB "},
-                                                                      {'R', " CB CG CD NE CZ NH1 NH2 "},
-                                                                      {'N', " CB CG OD1 ND2 "},
-                                                                      {'D', " CB CG OD1 OD2 "},
-                                                                      {'C', " CB SG "},
-                                                                      {'Q', " CB CG CD OE1 NE2 "},
-                                                                      {'E', " CB CG CD OE1 OE2 "},
-                                                                      {'G', " "},
-                                                                      {'H', " CB CG ND1 CD2 CE1 NE2 "},
-                                                                      {'I', " CB CG1 CG2 CD1 "},
-                                                                      {'L', " CB CG CD1 CD2 "},
-                                                                      {'K', " CB CG CD CE NZ "},
-                                                                      {'M', " CB CG SD CE "},
-                                                                      {'F', " CB CG CD1 CD2 CE1 CE2 CZ "},
-                                                                      {'P', " CB CG CD "},
-                                                                      {'S', " CB OG "},
-                                                                      {'T', " CB OG1 CG2 "},
-                                                                      {'W', " CB CG CD1 CD2 NE1 CE2 CE3 CZ2 CZ3 CH2 "},
-                                                                      {'Y', " CB CG CD1 CD2 CE1 CE2 CZ OH "},
-                                                                      {'V', " CB CG1 CG2 "}};
-  const auto* const row = std::find_if(std::begin(kSideChains), std::end(kSideChains),
-                                       [&](const auto& side_chain) { return side_chain.first == letter; });
+  const std::string_view* const side_chain = side_chain_of(letter);
   const std::string word = " " + atom_name + " ";
-  return row == std::end(kSideChains) || kBackbone.find(word) != std::string_view::npos ||
-         row->second.find(word) != std::string_view::npos;
+  return side_chain == nullptr || kBackbone.find(word) != std::string_view::npos ||
+         side_chain->find(word) != std::string_view::npos;
+}
+
+std::size_t n_heavy_atoms_of(char letter) {
+  constexpr std::size_t kBackbone = 4;
+  const std::string_view* const side_chain = side_chain_of(letter);
+  if (side_chain == nullptr) return 0;
+  return kBackbone + static_cast<std::size_t>(std::count(side_chain->begin(), side_chain->end(), ' ')) - 1;
 }
 
 std::vector<std::vector<std::size_t>> atoms_of_residues(const Molecule& molecule) {

@@ -30,6 +30,9 @@ std::string normalized_atom_name(const std::string& atom_name, char letter = '?'
 /// @param atom_name normalized
 bool is_heavy_atom_of(char letter, const std::string& atom_name);
 
+/// Heavy atoms of an amino acid within a chain; 0 for other letters.
+std::size_t n_heavy_atoms_of(char letter);
+
 /// [residue][] indices of its atoms, in file order.
 std::vector<std::vector<std::size_t>> atoms_of_residues(const Molecule& molecule);
 

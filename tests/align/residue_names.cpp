@@ -41,6 +41,10 @@ TEST_CASE("heavy atoms of the amino acids; other letters have any") {
   CHECK_FALSE(is_heavy_atom_of('L', "CD"));
   CHECK(is_heavy_atom_of('?', "P"));
   CHECK(is_heavy_atom_of('a', "P"));
+  CHECK(n_heavy_atoms_of('G') == 4);
+  CHECK(n_heavy_atoms_of('C') == 6);
+  CHECK(n_heavy_atoms_of('W') == 14);
+  CHECK(n_heavy_atoms_of('a') == 0);
 }
 
 TEST_CASE("old, CHARMM and current atom names are normalized to one spelling") {

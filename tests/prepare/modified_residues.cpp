@@ -310,6 +310,16 @@ TEST_CASE("rename_residues: CHARMM's nucleotides by their sugar, a protonated ac
   CHECK(molecule.atoms[5].name == "OXT");
 }
 
+TEST_CASE("foreign_atoms: of a whole residue; where its own are missing, they may be these") {
+  const auto foreign = [](const std::vector<std::string>& names) {
+    const Molecule molecule = molecule_from(row_of_names("CYS", 1, names));
+    return foreign_atoms(molecule, 0, atoms_of_residues(molecule)[0]);
+  };
+  CHECK(foreign({"N", "CA", "C", "O", "CB", "SG", "P", "O1P"}) == std::vector<std::string>{"P", "O1P"});
+  CHECK(foreign({"N", "CA", "C", "O", "CB", "SG", "OXT"}).empty());
+  CHECK(foreign({"N", "CA", "C", "O", "CB", "S1"}).empty());
+}
+
 TEST_CASE("rename_residues: GROMACS' mass centres of virtual sites are left out with a note, metals stay") {
   Molecule molecule =
       molecule_from(row_of_names("LYS", 4, {"N", "CA", "C", "O", "NZ"}) + record(6, "MNZ1", "LYS", 4, {9, 0, 12}, "") +

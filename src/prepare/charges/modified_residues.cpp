@@ -355,12 +355,18 @@ std::vector<std::string> foreign_atoms(const Molecule& molecule, std::size_t res
   std::vector<std::string> foreign;
   if (!is_known_amino_acid(molecule.residues[residue].name)) return foreign;
   const char letter = residue_letter(molecule.residues[residue].name);
+  std::set<std::string> own;
   for (const std::size_t i : atoms) {
     const Atom& atom = molecule.atoms[i];
-    if (!is_proton(atom) && !is_heavy_atom_of(letter, normalized_atom_name(atom.name, letter)))
+    if (is_proton(atom)) continue;
+    const std::string name = normalized_atom_name(atom.name, letter);
+    if (!is_heavy_atom_of(letter, name)) {
       foreign.push_back(atom.name);
+    } else if (name != "OXT") {
+      own.insert(name);
+    }
   }
-  return foreign;
+  return own.size() == n_heavy_atoms_of(letter) ? foreign : std::vector<std::string>();
 }
 
 GroupSource amino_acid_source(const Molecule& molecule, std::size_t residue, const std::vector<std::size_t>& atoms,

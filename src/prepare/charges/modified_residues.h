@@ -21,7 +21,7 @@ struct Preparation;
 void rename_residues(Molecule& molecule, Preparation& preparation);
 
 /// The names of heavy atoms that an amino acid of this name does not have: a phosphate on a cysteine that is named CYS.
-/// Empty for other residues.
+/// Empty for other residues, and where atoms of its own are missing, since these may be they.
 std::vector<std::string> foreign_atoms(const Molecule& molecule, std::size_t residue,
                                        const std::vector<std::size_t>& atoms);
 
