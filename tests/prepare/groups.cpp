@@ -252,7 +252,10 @@ TEST_CASE("prepare_molecule: C-alpha atoms alone and backbones without side chai
     }
     return message_of([&] { prepare_molecule(molecule_of(text), {}, {}, Progress()); });
   };
-  const std::string rest = ", from which neither charges nor a surface follow; give the structure with all atoms";
+  const std::string rest =
+      ", from which neither charges nor a surface follow; give the structure with all atoms, or a PQR with each atom's "
+      "charge "
+      "and radius";
   CHECK(error({" CA"}).find(": has C-alpha atoms only" + rest) != std::string::npos);
   CHECK(error({" N", " CA", " C", " O"}).find(": has a backbone without side chains" + rest) != std::string::npos);
   CHECK(error({" N", " CA", " C", " O", " CB", " CG"}).find("backbone") == std::string::npos);
