@@ -252,11 +252,10 @@ TEST_CASE("prepare_molecule: C-alpha atoms alone and backbones without side chai
     }
     return message_of([&] { prepare_molecule(molecule_of(text), {}, {}, Progress()); });
   };
-  const std::string rest =
-      ", from which neither charges nor a surface follow; give the structure with all atoms, or a PQR with each atom's "
-      "charge "
-      "and radius";
-  CHECK(error({" CA"}).find(": has C-alpha atoms only" + rest) != std::string::npos);
-  CHECK(error({" N", " CA", " C", " O"}).find(": has a backbone without side chains" + rest) != std::string::npos);
+  const std::string before = ": has no charges, and PDB2PQR cannot prepare it: it has ",
+                    after =
+                        "; give the structure with all atoms, or charges (topology FILE of a PSF or prmtop, or a PQR)";
+  CHECK(error({" CA"}).find(before + "C-alpha atoms only" + after) != std::string::npos);
+  CHECK(error({" N", " CA", " C", " O"}).find(before + "a backbone without side chains" + after) != std::string::npos);
   CHECK(error({" N", " CA", " C", " O", " CB", " CG"}).find("backbone") == std::string::npos);
 }

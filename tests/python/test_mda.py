@@ -54,7 +54,7 @@ def row(tmp_path):
 
 def test_a_universe_without_charges(row):
     for options in ({}, {"potential": "coulomb"}):
-        with pytest.raises(espdiff.FormatError, match="row.pdb, frame 0: has C-alpha atoms only, .*; give the structure with all atoms") as error:
+        with pytest.raises(espdiff.InputError, match="row.pdb, frame 0: has no charges, and PDB2PQR .*topology=.FILE.") as error:
             SurfacePotential(row.atoms, **options).run()
         assert "\n" not in str(error.value)
     empty = mda.Universe.empty(5, trajectory=True)

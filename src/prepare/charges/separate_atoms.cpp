@@ -84,11 +84,10 @@ void require_all_atoms(const Molecule& molecule) {
       std::any_of(molecule.residues.begin(), molecule.residues.end(),
                   [](const Residue& residue) { return residue.name != "GLY" && residue.name != "ALA"; });
   if (n_alpha >= kLeastResidues && n_backbone == molecule.size() && (has_long_ones || n_alpha == molecule.size()))
-    throw FormatError(
-        molecule.name, 0,
-        std::string("has ") + (n_alpha == molecule.size() ? "C-alpha atoms only" : "a backbone without side chains") +
-            ", from which neither charges nor a surface follow; give the structure with all atoms, or a PQR with "
-            "each atom's charge and radius");
+    throw InputError(molecule.name + ": has no charges, and PDB2PQR cannot prepare it: it has " +
+                     (n_alpha == molecule.size() ? "C-alpha atoms only" : "a backbone without side chains") +
+                     "; give the structure with all atoms, or charges (" + option("topology", "FILE") +
+                     " of a PSF or prmtop, or a PQR)");
   if (2 * n_beads <= molecule.size()) return;
   throw FormatError(molecule.name, 0,
                     "has coarse-grained beads (" + named_atom(molecule, first) +

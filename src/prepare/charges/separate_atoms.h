@@ -12,7 +12,7 @@ void require_separate_atoms(const Molecule& molecule);
 
 /// Refuses a molecule of coarse-grained beads: those of MARTINI (BB, SC1), and HADDOCK's of a shape (SHA), by the names
 /// of more than half of its atoms; and one of C-alpha atoms or of a backbone alone.
-/// @throws FormatError  not an InputError, since as atoms these have no shape to compare either
+/// @throws FormatError (beads: as atoms they have no shape to compare either), InputError
 void require_all_atoms(const Molecule& molecule);
 
 }  // namespace espdiff
