@@ -235,9 +235,8 @@ void select_and_charge(LoadedState& state, const StateRequest& request, const In
   const char* const select_option = select == options.both.select        ? "select"
                                     : request.role == StateRole::kTarget ? "target-select"
                                                                          : "source-select";
-  // What has charges stays where its cell, and the solvent's charges there, have it.
-  if (state.cell && !is_charged(state.molecule) && options.assembly.empty())
-    state.n_border_bonds = make_whole(state.molecule, *state.cell);
+  // The potential of everything in the cell has the cell's period, so that it is the same at an image.
+  if (state.cell && options.assembly.empty()) state.n_border_bonds = make_whole(state.molecule, *state.cell);
   state.whole = state.molecule;
   std::vector<bool> not_dropped(state.whole.size(), true), selected;
   if (!options.leave_out.empty()) {
