@@ -217,7 +217,7 @@ TEST_CASE("trajectory: wrong input gives one line and leaves nothing") {
         {source + " " + fewer + " --potential pme", "it lacks CA of ALA A 12 (11 and 12 atoms)"},
         {source + " " + fewer, "frame 0: "},
         {bare + " " + frames + " --potential pme",
-         "has no charges, and PDB2PQR cannot prepare it: more than a tenth of the heavy atoms"},
+         "has no charges, and PDB2PQR cannot prepare it: it has C-alpha atoms only"},
         {source + " " + frames + " --potential pme --target-map " + map, "--potential computes both maps"},
         {source + " " + frames + " --source-map " + map, "was given for the source only"},
         {source + " " + frames + " --resume --overwrite", "exclude each other"},
