@@ -186,6 +186,11 @@ int alignment_score(const Sequence& a, const Sequence& b) {
 std::vector<std::pair<std::size_t, std::size_t>> align_sequences(const Sequence& a, const Sequence& b,
                                                                  const std::vector<std::int32_t>& numbers_a,
                                                                  const std::vector<std::int32_t>& numbers_b) {
+  if (a == b && numbers_a == numbers_b) {  // each gap or other pair scores less: copies of a chain need no table
+    std::vector<std::pair<std::size_t, std::size_t>> each_with_itself;
+    for (std::size_t i = 0; i < a.size(); ++i) each_with_itself.emplace_back(i, i);
+    return each_with_itself;
+  }
   AlignmentTable table(a, b);
   table.use_numbers(numbers_a, numbers_b);
   table.fill();

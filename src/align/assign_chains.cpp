@@ -80,6 +80,7 @@ double rmsd_of_arrangement(const ChainAssignment& chains, const std::vector<std:
 
 std::vector<std::ptrdiff_t> assign_chains(const ChainAssignment& chains) {
   const double present = rmsd_of_arrangement(chains, chains.target_of);
+  if (present <= kBetter_A) return chains.target_of;
   std::vector<std::ptrdiff_t> best = chains.target_of;
   double least = present;
   int n_tried = 0;

@@ -170,9 +170,14 @@ std::vector<const BothEnds*> heavy_atoms(const PairedResidue& residue) {
 std::vector<std::optional<Fit>> fits_around(const std::vector<PairedResidue>& residues) {
   constexpr double kSurroundings_A = 13;
   constexpr std::size_t kLeastNeighbours = 6;
-  std::vector<std::pair<std::size_t, const BothEnds*>> traces;
+  struct Trace {
+    std::size_t residue;
+    const BothEnds* ca;
+    Eigen::Vector3d start;  // also here, since each residue looks at each
+  };
+  std::vector<Trace> traces;
   for (std::size_t r = 0; r < residues.size(); ++r) {
-    if (const BothEnds* ca = residues[r].find("CA"); ca != nullptr) traces.emplace_back(r, ca);
+    if (const BothEnds* ca = residues[r].find("CA"); ca != nullptr) traces.push_back({r, ca, ca->start});
   }
   std::vector<std::optional<Fit>> fits(residues.size());
   const auto n = static_cast<std::ptrdiff_t>(residues.size());
@@ -184,10 +189,10 @@ std::vector<std::optional<Fit>> fits_around(const std::vector<PairedResidue>& re
     if (heavy.empty()) continue;
     const Fit middle = fit_of(heavy);
     std::vector<const BothEnds*> around;
-    for (const auto& [other, b] : traces) {
-      if (other != r && (b->start - middle.start).squaredNorm() <= kSurroundings_A * kSurroundings_A &&
-          (b->end - middle.end).squaredNorm() <= kSurroundings_A * kSurroundings_A)
-        around.push_back(b);
+    for (const Trace& other : traces) {
+      constexpr double kLargestSquare = kSurroundings_A * kSurroundings_A;
+      if ((other.start - middle.start).squaredNorm() > kLargestSquare || other.residue == r) continue;
+      if ((other.ca->end - middle.end).squaredNorm() <= kLargestSquare) around.push_back(other.ca);
     }
     if (around.size() >= kLeastNeighbours) fits[r] = fit_of(around);
   }

@@ -2,7 +2,9 @@
 #include "compare/choose_motions.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "align/geometry/rigid_domains.h"
 #include "base/not_a_number.h"
@@ -48,24 +50,68 @@ MappedStep keep(MappedStep kept, const MappedStep& other, const StatesToMap& sta
   return kept;
 }
 
+/// Where the paired atoms of a residue start and end.
+struct Surroundings {
+  Vec3d start{}, end{};  ///< sums
+  double n = 0;
+
+  void add(const Vec3d& starts, const Vec3d& ends) {
+    start += starts;
+    end += ends;
+    ++n;
+  }
+};
+
+/// [residue] the mean way of the paired atoms of residues around it, itself among them: those whose centroids lie near
+/// its own on the source and have not gone far from it on the target, as another domain's may.
+std::vector<Vec3d> mean_ways_around(const std::vector<Surroundings>& residues) {
+  constexpr double kNear_A = 12, kNearAtEnd_A = 18;
+  std::vector<Vec3d> means(residues.size());
+  const auto n = static_cast<std::ptrdiff_t>(residues.size());
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    const Surroundings& own = residues[static_cast<std::size_t>(i)];
+    if (own.n == 0) continue;
+    const Vec3d start = (1 / own.n) * own.start, end = (1 / own.n) * own.end;
+    Surroundings near;
+    for (const Surroundings& other : residues) {
+      if (other.n == 0 || norm((1 / other.n) * other.start - start) > kNear_A ||
+          norm((1 / other.n) * other.end - end) > kNearAtEnd_A)
+        continue;
+      near.start += other.start;
+      near.end += other.end;
+      near.n += other.n;
+    }
+    means[static_cast<std::size_t>(i)] = (1 / near.n) * (near.end - near.start);
+  }
+  return means;
+}
+
 }  // namespace
 
 bool slips(const MappedStep& step, const StatesToMap& states) { return !reasons_of_slip(step, states).empty(); }
 
 bool will_slip(const StatesToMap& states, const CommonFrame& frame) {
-  // Atoms that fade need 16 steps anyway: where the farthest one needs no more than about 45, long steps save little.
-  constexpr double kFar_A = 10, kShare = 0.01, kFarthest_A = 16;
+  constexpr double kFar_A = 9, kShare = 0.012;
   const auto& pairs = states.alignment.pairing.pairs;
-  std::size_t n_far = 0;
-  double farthest = 0;
+  std::vector<Vec3d> ways;
+  double longest_A = 0;
+  std::vector<Surroundings> residues(states.source.residues.size());
   for (const auto& [s, t] : pairs) {
-    const Vec3d way =
-        frame.from_target.apply(states.target.positions[t]) - frame.from_source.apply(states.source.positions[s]);
-    const double length = norm(way);
-    n_far += length > kFar_A ? 1 : 0;
-    farthest = std::max(farthest, length);
+    const Vec3d start = frame.from_source.apply(states.source.positions[s]),
+                end = frame.from_target.apply(states.target.positions[t]);
+    ways.push_back(end - start);
+    longest_A = std::max(longest_A, norm(ways.back()));
+    residues[static_cast<std::size_t>(states.source.atoms[s].residue)].add(start, end);
   }
-  return farthest > kFarthest_A && static_cast<double>(n_far) > kShare * static_cast<double>(pairs.size());
+  if (longest_A < kFar_A / 2) return false;  // two ways that short do not end so far apart
+  const std::vector<Vec3d> around = mean_ways_around(residues);
+  std::size_t n_far = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto residue = static_cast<std::size_t>(states.source.atoms[pairs[i].first].residue);
+    n_far += norm(ways[i] - around[residue]) > kFar_A ? 1 : 0;
+  }
+  return static_cast<double>(n_far) > kShare * static_cast<double>(pairs.size());
 }
 
 double own_residue_share(const Certificate& c, double source_area, double target_area) {

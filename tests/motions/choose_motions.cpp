@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -168,27 +170,38 @@ TEST_CASE("a pair that slips has the bits of local motions where they map better
   CHECK(std::abs(other.own_residue_area_fraction - share_of(straight)) < kOfSteps);
 }
 
-TEST_CASE("a mapping is tried in long steps where atoms go far, and one atom is not enough") {
+TEST_CASE("a mapping is tried in long steps where atoms part from their surroundings, and domains do not part") {
   TwoAreas areas;
   Molecule source, target;
   espdiff::AtomPairing& pairing = areas.alignment.pairing;
   const espdiff::StatesToMap states{*areas.engine, areas.options, source,       areas.source,   areas.none,
                                     false,         target,        areas.target, areas.alignment};
-  constexpr std::size_t kAtoms = 100;
+  constexpr std::size_t kAtoms = 100, kOfResidue = 10;
   for (std::size_t i = 0; i < kAtoms; ++i) {
-    source.positions.push_back({static_cast<double>(i), 0, 0});
-    target.positions.push_back({static_cast<double>(i), 9.9, 0});
+    const auto residue = static_cast<std::int32_t>(i / kOfResidue);
+    if (i % kOfResidue == 0) source.residues.emplace_back();
+    source.atoms.emplace_back();
+    source.atoms.back().residue = residue;
+    source.positions.push_back({static_cast<double>(3 * residue), 0.1 * static_cast<double>(i % kOfResidue), 0});
     pairing.pairs.emplace_back(i, i);
   }
+  target.positions = source.positions;
   const espdiff::CommonFrame frame{};
-  const auto moved = [&](std::size_t atom, double way_A) { target.positions[atom].y = way_A; };
+  const auto move = [&](std::size_t begin, std::size_t end, double way_A) {
+    for (std::size_t i = begin; i < end; ++i) target.positions[i].z = way_A;
+  };
   CHECK_FALSE(espdiff::will_slip(states, frame));
-  moved(0, 20);
+  move(0, kAtoms, 30);
   CHECK_FALSE(espdiff::will_slip(states, frame));
-  moved(1, 10.1);
+  move(0, kAtoms / 2, 0);
+  CHECK_FALSE(espdiff::will_slip(states, frame));
+  move(0, kAtoms, 0);
+  move(0, 1, 12);
+  CHECK_FALSE(espdiff::will_slip(states, frame));
+  move(1, 2, 9.2);
+  CHECK_FALSE(espdiff::will_slip(states, frame));  // its surroundings go 0.4 A with it
+  move(1, 2, 12);
   CHECK(espdiff::will_slip(states, frame));
-  moved(0, 15.9);
-  CHECK_FALSE(espdiff::will_slip(states, frame));
 }
 
 TEST_CASE("the superposition that is kept after a trial in long steps has the bits of usual steps") {
