@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cuda/potential/far_charges.h"
 #include "cuda/surface/density/gaussian.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -60,13 +61,13 @@ struct BorderSums {
   ESPDIFF_INLINE Vec3f point(std::size_t index) const { return face.coarse_point(index, stride); }
 };
 
-/// The border's points as charges, summed at the atoms.
-struct AtomSums {
+/// The border's points as charges, summed at the atoms or the nodes around them.
+struct PlaceSums {
   BorderCharges charges;
-  const Vec3f* atoms;
+  const Vec3f* places;
   float* values;
 
-  ESPDIFF_INLINE Vec3f point(std::size_t index) const { return atoms[index]; }
+  ESPDIFF_INLINE Vec3f point(std::size_t index) const { return places[index]; }
 };
 
 #if defined(__CUDACC__)
@@ -103,7 +104,7 @@ ESPDIFF_INLINE void sum_points_inline(const Sums& in, std::size_t begin, std::si
 ESPDIFF_MULTIVERSION void sum_points(const BorderSums& sums, std::size_t first, std::size_t last) {
   sum_points_inline(sums, first, last);
 }
-ESPDIFF_MULTIVERSION void sum_points(const AtomSums& sums, std::size_t first, std::size_t last) {
+ESPDIFF_MULTIVERSION void sum_points(const PlaceSums& sums, std::size_t first, std::size_t last) {
   sum_points_inline(sums, first, last);
 }
 #endif
@@ -260,14 +261,10 @@ void gather_face(const Face& face, int stride, Buffer<float>& gradient, std::vec
 
 void set_debye_hueckel_border(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, const DebyeHueckel& law,
                               Buffer<float>& phi) {
-  std::vector<Vec3f> places;
-  std::vector<float> strengths;
-  for (const PbAtom& atom : atoms) {
-    if (atom.charge == 0) continue;
-    places.push_back(static_cast<Vec3f>(atom.position));
-    strengths.push_back(static_cast<float>(static_cast<double>(atom.charge) * unit_strength(atom, law)));
-  }
-  const ChargeArrays charges(places, std::move(strengths));
+  const FarCharges places(atoms, law.nodes_A);
+  std::vector<double> strengths;
+  for (const PbAtom& atom : atoms) strengths.push_back(static_cast<double>(atom.charge) * unit_strength(atom, law));
+  const ChargeArrays charges(places.places(), places.spread(strengths));
   const int stride = stride_of(lattice, law);
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool upper : {false, true})
@@ -286,16 +283,13 @@ std::vector<double> debye_hueckel_transposed(const std::vector<PbAtom>& atoms, c
       gather_face(face_of(lattice, axis, upper, stride), stride, gradient, places, strengths);
   }
   const ChargeArrays border(places, std::move(strengths));
-  std::vector<Vec3f> positions;
-  for (const PbAtom& atom : atoms) positions.push_back(static_cast<Vec3f>(atom.position));
-  const Buffer<Vec3f> sent = to_device(positions);
-  Buffer<float> sums(atoms.size());
-  const AtomSums at_atoms{border.view(law), raw(sent), raw(sums)};
-  run_sums(at_atoms, atoms.size());
-  const std::vector<float> found = to_host(sums);
-  std::vector<double> result;
-  for (std::size_t i = 0; i < atoms.size(); ++i)
-    result.push_back(unit_strength(atoms[i], law) * static_cast<double>(found[i]));
+  const FarCharges atom_places(atoms, law.nodes_A);
+  const Buffer<Vec3f> sent = to_device(atom_places.places());
+  Buffer<float> sums(sent.size());
+  const PlaceSums at_places{border.view(law), raw(sent), raw(sums)};
+  run_sums(at_places, sums.size());
+  std::vector<double> result = atom_places.gather(to_host(sums));
+  for (std::size_t i = 0; i < atoms.size(); ++i) result[i] *= unit_strength(atoms[i], law);
   return result;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "cuda/device/angles.h"
+
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
@@ -56,16 +58,25 @@ void sort_nearest_first(const AtomCellsView& cells, std::uint32_t n_atoms, const
 
 #else
 
-/// The same on the CPU, by a thread for each atom.
+/// The same on the CPU, by a thread for each atom; among equal distances in the order of the atoms.
 void sort_nearest_first(const AtomCellsView& cells, std::uint32_t n_atoms, const std::uint32_t* first,
                         Buffer<std::uint32_t>& list) {
   std::uint32_t* const item = raw(list);
   for_each_index(n_atoms, [=](std::size_t a) {
+    constexpr std::uint32_t kUsual = 256;
+    std::uint32_t* const own = item + first[a];
+    const std::uint32_t n = first[a + 1] - first[a];
     const auto with_distance = [&](std::uint32_t b) {
       return std::pair(squared_distance(cells, static_cast<std::uint32_t>(a), b), b);
     };
-    std::sort(item + first[a], item + first[a + 1],
-              [&](std::uint32_t b, std::uint32_t c) { return with_distance(b) < with_distance(c); });
+    if (n > kUsual) {
+      std::sort(own, own + n, [&](std::uint32_t b, std::uint32_t c) { return with_distance(b) < with_distance(c); });
+      return;
+    }
+    std::pair<float, std::uint32_t> sorted[kUsual];
+    for (std::uint32_t i = 0; i < n; ++i) sorted[i] = with_distance(own[i]);
+    std::sort(sorted, sorted + n);
+    for (std::uint32_t i = 0; i < n; ++i) own[i] = sorted[i].second;
   });
 }
 
@@ -173,8 +184,8 @@ ESPDIFF_INLINE bool cut_by(const ProbeAtomsView& atoms, std::uint32_t c, const C
     arcs.n = 0;
     return false;
   }
-  const float half = acosf(larger(least / most, -1.0F));
-  float from = atan2f(y, x) - half;
+  const float half = angle_of_cosine(larger(least / most, -1.0F));
+  float from = angle_of_direction(y, x) - half;
   if (from < 0.0F) from += kTwoPi;
   const float to = from + 2.0F * half;
   if (to <= kTwoPi) {

@@ -36,7 +36,7 @@ PbConstants pb_constants(const PoissonBoltzmannOptions& o) {
 DebyeHueckel border_law(const PbConstants& constants, const PoissonBoltzmannOptions& options) {
   DebyeHueckel law{constants.coulomb / options.solvent_dielectric, constants.kappa};
   // At 20 A from atoms the sum varies over twice the distance.
-  if (options.far_boundary == FarBoundary::kFocus) law.every_A = 5;
+  if (options.far_boundary == FarBoundary::kFocus) law.every_A = law.nodes_A = 5;
   return law;
 }
 

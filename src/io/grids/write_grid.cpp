@@ -1,6 +1,7 @@
 // write_grid.cpp: OpenDX text and VTI from a grid.
 #include "io/grids/write_grid.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -23,10 +24,18 @@ void check_grid(const std::string& path, const Grid& grid) {
     throw InputError(path + ": not written: the grid has " + std::to_string(n_points) + " points but " +
                      std::to_string(grid.values.size()) + " values");
   }
-  for (std::size_t i = 0; i < n_points; ++i) {
-    if (std::isfinite(grid.values[i])) continue;
-    throw InputError(path + ": not written: value " + std::to_string(i) + " of the map is not a finite number");
+  const float* const values = grid.values.data();
+  std::uint32_t n_others = 0;
+  for (std::size_t i = 0; i < n_points; ++i) {  // by the exponent, which the compiler makes a loop of vectors of
+    constexpr std::uint32_t kExponent = 0x7f800000;
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, values + i, sizeof bits);
+    n_others += (bits & kExponent) == kExponent ? 1 : 0;
   }
+  if (n_others == 0) return;
+  const auto first = std::find_if(values, values + n_points, [](float v) { return !std::isfinite(v); });
+  throw InputError(path + ": not written: value " + std::to_string(first - values) +
+                   " of the map is not a finite number");
 }
 
 /// Shortest of up to `digits` significant digits; independent of the locale.

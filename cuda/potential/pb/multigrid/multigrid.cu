@@ -6,6 +6,7 @@
 
 #include "cuda/potential/pb/multigrid/grid_transfer.h"
 #include "cuda/potential/pb/multigrid/packed_operator.h"
+#include "cuda/potential/pb/multigrid/plane_loops.h"
 #include "cuda/potential/pb/multigrid/plane_sweeps.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -150,6 +151,20 @@ double dot_product(const Buffer<float>& a, const Buffer<float>& b) {
   const float* const x = raw(a);
   const float* const y = raw(b);
   const std::size_t n = a.size(), lanes = LaneSums::kLanes;
+#if !defined(ESPDIFF_BACKEND_CUDA)
+  // The chunks of sum_over(), each by a loop that the processor's widest vectors run.
+  const std::size_t in_chunk = kReductionChunk * lanes, n_chunks = (n + in_chunk - 1) / in_chunk;
+  Buffer<LaneSums> of_chunk(n_chunks);
+  LaneSums* const sums = raw(of_chunk);
+  for_each_index(n_chunks, [=](std::size_t chunk) {
+    LaneSums sum;
+    add_products(x, y, chunk * in_chunk, std::min((chunk + 1) * in_chunk, n), sum);
+    sums[chunk] = sum;
+  });
+  LaneSums total;
+  for (const LaneSums& sum : of_chunk) total += sum;
+  return total.total();
+#else
   return sum_over<LaneSums>(
              (n + lanes - 1) / lanes,
              [=] ESPDIFF_HD(std::size_t block) {
@@ -165,6 +180,7 @@ double dot_product(const Buffer<float>& a, const Buffer<float>& b) {
                return term;
              })
       .total();
+#endif
 }
 
 void add_faces_to_diagonal(GridOperator& a, std::shared_ptr<const PackedOperator> packed) {
