@@ -72,19 +72,16 @@ ESPDIFF_INLINE void locate_lanes(const Iteration& it, std::size_t begin, LaneRea
 }
 
 /// move_vertex() for kVertexLanes vertices, step by step, with the same bits; the field is interpolated linearly.
-ESPDIFF_INLINE void move_lanes(const Iteration& it, std::size_t begin) {
-  LaneReading r;
-  locate_lanes(it, begin, r);
+/// @param r    from locate_lanes()
+/// @param next of the vertices that move next, whose cells are fetched; may be those of `r`
+ESPDIFF_INLINE void move_lanes(const Iteration& it, std::size_t begin, LaneReading& r, const LaneReading& next) {
   const std::size_t nx = static_cast<std::size_t>(it.lattice.size[0]),
                     nxy = nx * static_cast<std::size_t>(it.lattice.size[1]);
   // Without it a fifth of the time would be waiting for the field.
-  const auto prefetch = [&](std::size_t i) ESPDIFF_INLINE_LAMBDA {
-    for (const std::size_t row : {std::size_t{0}, nx, nxy, nxy + nx}) __builtin_prefetch(r.cell[i] + row);
-  };
-  constexpr std::size_t kAhead = 8;
-  for (std::size_t i = 0; i < kAhead; ++i) prefetch(i);
+  constexpr std::size_t kAhead = 12;
   for (std::size_t i = 0; i < kVertexLanes; ++i) {
-    if (i + kAhead < kVertexLanes) prefetch(i + kAhead);
+    const Vec4f* const cell = i + kAhead < kVertexLanes ? r.cell[i + kAhead] : next.cell[i + kAhead - kVertexLanes];
+    for (const std::size_t row : {std::size_t{0}, nx, nxy, nxy + nx}) __builtin_prefetch(cell + row);
     const Quad squared = umbrella_quad(it.topology, it.laplacian, begin + i),
                field = mix_cell(r.cell[i], nx, nxy, r.part[0][i], r.part[1][i], r.part[2][i]);
     std::memcpy(r.laplacian_squared[i], &squared, sizeof squared);
@@ -117,8 +114,15 @@ ESPDIFF_INLINE void move_lanes(const Iteration& it, std::size_t begin) {
 
 ESPDIFF_MULTIVERSION void move_vertices(const Iteration& it, std::size_t begin, std::size_t end) {
   std::size_t v = begin;
-  if (!it.tricubic)
-    for (; v + kVertexLanes <= end; v += kVertexLanes) move_lanes(it, v);
+  if (!it.tricubic && v + kVertexLanes <= end) {
+    LaneReading readings[2];
+    locate_lanes(it, v, readings[0]);
+    for (std::size_t k = 0; v + kVertexLanes <= end; v += kVertexLanes, k = 1 - k) {
+      const bool is_last = v + 2 * kVertexLanes > end;
+      if (!is_last) locate_lanes(it, v + kVertexLanes, readings[1 - k]);
+      move_lanes(it, v, readings[k], readings[is_last ? k : 1 - k]);
+    }
+  }
   for (; v < end; ++v) move_vertex(it, v);
 }
 

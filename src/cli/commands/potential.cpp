@@ -149,12 +149,11 @@ class Frames {
       return first_->molecule;
     }
     const std::string name = first_->molecule.name + ", frame " + std::to_string(frame);
-    return load_frame(file_, structure_, name, first_->molecule, preparation().has_value(), options_, progress_)
+    return load_frame(file_, structure_, name, first_->molecule, first_->preparation.has_value(), options_, progress_)
         .molecule;
   }
   /// @pre read() was called
-  const Molecule& first() const { return first_->molecule; }
-  const std::optional<Preparation>& preparation() const { return first_->preparation; }
+  const LoadedState& first() const { return *first_; }
 
  private:
   const PotentialArguments& a_;
@@ -183,7 +182,7 @@ int potential_verb(PotentialArguments& a, const Context& context) {
     const Molecule molecule = states.read(frames[i]);
     require_charges(molecule);
     // A crystal's cell is no cell of a molecule without its water.
-    const auto cell = states.preparation() ? std::nullopt : file.unit_cell(frames[i] + 1);
+    const auto cell = states.first().preparation ? std::nullopt : file.unit_cell(frames[i] + 1);
     if (a.map.each) {
       outputs.write_frame(i, series.step(molecule, cell, *context.progress));
     } else {
@@ -196,8 +195,8 @@ int potential_verb(PotentialArguments& a, const Context& context) {
   outputs.finish(a, mean, series.average());
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (a.quiet) return 0;
-  if (states.preparation()) print_preparation(std::cout, *states.preparation());
-  print_summary(states.first(), mean, frames.size(), a.map.method == PotentialMethod::kPoissonBoltzmann, ms);
+  print_preparation(std::cout, states.first());
+  print_summary(states.first().molecule, mean, frames.size(), a.map.method == PotentialMethod::kPoissonBoltzmann, ms);
   std::cout << "written        " << (a.map.each ? numbered(a.output, frames.front()) + " and so on" : a.output) << '\n';
   return 0;
 }

@@ -16,7 +16,6 @@
 #include "options/options.h"
 #include "prepare/input_files.h"
 #include "prepare/load_state.h"
-#include "prepare/make_whole.h"
 #include "report/sections/preparation_json.h"
 
 namespace espdiff::cli {
@@ -49,11 +48,8 @@ nlohmann::ordered_json as_json(const PrepareArguments& a, const Context& context
 }
 
 void print_summary(const PrepareArguments& a, const LoadedState& state) {
-  if (state.n_border_bonds > 0)
-    std::cout << "cell            the molecule " << made_whole_in_words(state.n_border_bonds) << '\n';
-  if (state.preparation) {
-    print_preparation(std::cout, *state.preparation);
-  } else {
+  print_preparation(std::cout, state);
+  if (!state.preparation) {
     double charge = 0;
     for (const float q : state.molecule.charges) charge += static_cast<double>(q);
     std::cout << formatted("charges         of the file%s\nnet charge      %.4f e\n",

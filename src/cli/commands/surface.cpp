@@ -111,7 +111,7 @@ int surface_verb(SurfaceArguments& a, const Context& context) {
   context.progress->report("write", 1.0);
   commit_all(files);
   if (a.quiet) return 0;
-  if (state.preparation) print_preparation(std::cout, *state.preparation);
+  print_preparation(std::cout, state);
   if (!plan.because().empty()) std::cout << "potential      none: " << plan.because() << '\n';
   if (!note.empty()) std::cout << "radii          " << note << '\n';
   if (!map.contradicting_title.empty())

@@ -8,6 +8,8 @@
 
 #include "base/formatted.h"
 #include "prepare/charges/preparation.h"
+#include "prepare/load_state.h"
+#include "prepare/make_whole.h"
 
 namespace espdiff {
 namespace {
@@ -48,7 +50,10 @@ nlohmann::ordered_json preparation_json(const Preparation& p) {
   return json;
 }
 
-void print_preparation(std::ostream& out, const Preparation& p) {
+void print_preparation(std::ostream& out, const LoadedState& state) {
+  if (state.n_border_bonds > 0) labelled_line(out, "cell", "the molecule " + made_whole_in_words(state.n_border_bonds));
+  if (!state.preparation) return;
+  const Preparation& p = *state.preparation;
   labelled_line(out, "prepared by",
                 p.program + (p.force_field == "none" ? "" : ", force field " + p.force_field) + ", pH " +
                     formatted("%g", p.ph) + (p.propka ? " (PROPKA)" : "") + (p.from_cache ? ", from the cache" : ""));

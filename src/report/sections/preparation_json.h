@@ -6,12 +6,14 @@
 
 namespace espdiff {
 
+struct LoadedState;
 struct Preparation;
 
 /// The object of a structure in OUT.json.
 nlohmann::ordered_json preparation_json(const Preparation& preparation);
 
-/// A table: program and options, what was added, repaired and protonated, the net charge.
-void print_preparation(std::ostream& out, const Preparation& preparation);
+/// A table: bonds across the cell's border; of what was prepared, program and options, what was added, repaired and
+/// protonated, the net charge.
+void print_preparation(std::ostream& out, const LoadedState& state);
 
 }  // namespace espdiff

@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <vector>
 
+#include "base/formatted.h"
 #include "cli/run_espdiff.h"
 #include "io/files/read_csv.h"
 #include "io/vtk/read_vtp.h"
@@ -161,6 +163,35 @@ TEST_CASE("potential and surface prepare a structure without charges, as prepare
   const Outcome shape = run_espdiff("surface " + *entry + " --device cpu -o " + folder.file("shape.vtp"));
   CHECK(shape.status == 0);
   CHECK_FALSE(contains(shape.out, "prepared by"));
+}
+
+TEST_CASE("potential, surface and prepare say that a molecule which its cell's border cuts was made whole") {
+  const auto pqr = real_input("series19_ubq_2k39/m00.pqr");
+  if (!pqr) return;
+  const ScratchFolder folder;
+  // The border cuts through the molecule, and the cell is wider.
+  constexpr std::size_t kX = 30, kWidth = 8;
+  constexpr double kBorder_A = 20, kCell_A = 90;
+  std::string wrapped = "CRYST1   90.000   90.000   90.000  90.00  90.00  90.00 P 1           1\n";
+  std::istringstream lines(as_pdb(read_file(*pqr)));
+  for (std::string line; std::getline(lines, line);) {
+    const double x = std::stod(line.substr(kX, kWidth)) - kBorder_A;
+    wrapped += line.replace(kX, kWidth, espdiff::formatted("%8.3f", x < 0 ? x + kCell_A : x)) + "\n";
+  }
+  const std::string pdb = folder.write("cut.pdb", wrapped),
+                    made = "cell            the molecule crossed the border of its periodic cell at ";
+  const Outcome cut = run_espdiff("surface " + pdb + " --device cpu -o " + folder.file("cut.vtp")),
+                whole = run_espdiff("surface " + *pqr + " --device cpu -o " + folder.file("whole.vtp"));
+  CHECK_MESSAGE(contains(cut.out, made), (cut.out + cut.err));
+  CHECK_MESSAGE(contains(cut.out, "1 component\n"), cut.out);
+  CHECK_FALSE(contains(whole.out, made));
+  if (!has_pdb2pqr()) return;
+  for (const std::string& command :
+       {"potential " + pdb + " --method pb --pb-spacing 2 --device cpu -o " + folder.file("cut.dx"),
+        "prepare " + pdb + " -o " + folder.file("cut.pqr")}) {
+    const Outcome outcome = run_espdiff(command);
+    CHECK_MESSAGE(contains(outcome.out, made), (outcome.out + outcome.err));
+  }
 }
 
 TEST_CASE("surface takes selections; what potential and surface cannot do is one line, and nothing is written") {
