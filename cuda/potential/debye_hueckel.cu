@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cuda/potential/cubic_weights.h"
 #include "cuda/potential/far_charges.h"
 #include "cuda/surface/density/gaussian.h"
 
@@ -122,14 +123,6 @@ void run_sums(const Sums& sums, std::size_t n) {
   for_each_index((n + kRun - 1) / kRun,
                  [=](std::size_t run) { sum_points(sums, run * kRun, std::min(n, (run + 1) * kRun)); });
 #endif
-}
-
-/// Weights of cubic Lagrange interpolation on four points in a row; t runs from 0 to 1 between the middle two.
-ESPDIFF_INLINE void cubic_weights(float t, float (&w)[4]) {
-  w[0] = -t * (t - 1.0F) * (t - 2.0F) / 6.0F;
-  w[1] = (t + 1.0F) * (t - 1.0F) * (t - 2.0F) * 0.5F;
-  w[2] = -(t + 1.0F) * t * (t - 2.0F) * 0.5F;
-  w[3] = (t + 1.0F) * t * (t - 1.0F) / 6.0F;
 }
 
 struct CubicPlace {

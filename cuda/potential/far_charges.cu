@@ -4,19 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cuda/potential/cubic_weights.h"
+
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
 /// Nodes are worth it from so many times fewer on.
 constexpr std::size_t kFewer = 2;
-
-/// Cubic Lagrange interpolation on four points in a row; t runs from 0 to 1 between the middle two.
-void set_cubic_weights(double t, double* w) {
-  w[0] = -t * (t - 1) * (t - 2) / 6;
-  w[1] = (t + 1) * (t - 1) * (t - 2) / 2;
-  w[2] = -(t + 1) * t * (t - 2) / 2;
-  w[3] = (t + 1) * t * (t - 1) / 6;
-}
 
 }  // namespace
 
@@ -50,7 +44,7 @@ FarCharges::FarCharges(const std::vector<PbAtom>& atoms, double spacing_A) {
     const std::size_t strides[3] = {1, row_, plane_};
     for (int axis = 0; axis < 3; ++axis) {
       const double place = atom.position[axis] / spacing_A, cell = std::floor(place);
-      set_cubic_weights(place - cell, spread.weight[axis]);
+      cubic_weights(place - cell, spread.weight[axis]);
       spread.first += strides[axis] * static_cast<std::size_t>(cell - low[axis]);
     }
     spreads_.push_back(spread);

@@ -106,10 +106,10 @@ std::size_t count_waters(const Molecule& molecule) {
 
 void print_summary(const Molecule& molecule, const Grid& map, std::size_t n_frames, bool in_continuum, double ms) {
   double charge = 0;
+  for (const float q : molecule.charges) charge += static_cast<double>(q);
   // In lanes, so that no value waits for the one before: a large map has a hundred million.
   constexpr std::size_t kLanes = 8;
   std::array<float, kLanes> least{}, most{};
-  for (const float q : molecule.charges) charge += static_cast<double>(q);
   const auto take = [&](std::size_t lane, float v) {
     least[lane] = v < least[lane] ? v : least[lane];
     most[lane] = v > most[lane] ? v : most[lane];
