@@ -91,6 +91,11 @@ std::vector<Vec3d> mean_ways_around(const std::vector<Surroundings>& residues) {
 
 bool slips(const MappedStep& step, const StatesToMap& states) { return !reasons_of_slip(step, states).empty(); }
 
+bool slips_clearly(const MappedStep& trial, const StatesToMap& states) {
+  constexpr double kOfSteps = 0.01;  // twice the most of 110 pairs
+  return slips(trial, states) && trial.certificate.slip->large_area_fraction > kMostSlippedArea + kOfSteps;
+}
+
 bool will_slip(const StatesToMap& states, const CommonFrame& frame) {
   constexpr double kFar_A = 9, kShare = 0.012;
   const auto& pairs = states.alignment.pairing.pairs;
@@ -124,15 +129,16 @@ MappedStep without_second(MappedStep straight, const Message& error) {
   return straight;
 }
 
-bool keeps_local(const MappedStep& straight, const MappedStep& local, const StatesToMap& states) {
-  return mapping_reasons(local, states).empty() || share_of(local, states) > share_of(straight, states);
+bool keeps_local_clearly(const MappedStep& trial, const MappedStep& local, const StatesToMap& states) {
+  constexpr double kOfSteps = 0.005;  // of 110 pairs 0.004 at most
+  return mapping_reasons(local, states).empty() || share_of(local, states) > share_of(trial, states) + kOfSteps;
 }
 
 MappedStep better_of(MappedStep straight, MappedStep local, const StatesToMap& states) {
   if (mapping_reasons(local, states).empty())
     return keep(std::move(local), straight, states,
                 "the superposition of the whole slips, and local motions are within the limits");
-  if (keeps_local(straight, local, states))
+  if (share_of(local, states) > share_of(straight, states))
     return keep(std::move(local), straight, states,
                 "neither is within the limits; with local motions more of the surfaces is on its own residue");
   return keep(std::move(straight), local, states,

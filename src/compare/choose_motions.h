@@ -9,6 +9,10 @@ namespace espdiff {
 /// Whether a mapping is refused by its slip, so that local motions may map better.
 bool slips(const MappedStep& step, const StatesToMap& states);
 
+/// Whether it would be in usual steps, too: the slip of a trial (kTrialSteps) is farther beyond the limit of the whole
+/// area than its steps can change.
+bool slips_clearly(const MappedStep& trial, const StatesToMap& states);
+
 /// Whether the mapping by the superposition of the whole slips most likely: more than 1.2 % of the paired atoms part
 /// from their surroundings, which is to end farther than 9 A from where the mean way of the residues around theirs
 /// takes them. Rigid domains do not part from theirs, however far they go. Of 347 ordered pairs, nearly all of
@@ -31,8 +35,9 @@ double own_residue_share(const Certificate& certificate, double source_area, dou
 /// @param local    by local motions
 MappedStep better_of(MappedStep straight, MappedStep local, const StatesToMap& states);
 
-/// Whether better_of() keeps `local`.
-bool keeps_local(const MappedStep& straight, const MappedStep& local, const StatesToMap& states);
+/// Whether better_of() keeps `local` instead of a mapping in usual steps, of which `trial` is one in longer steps: the
+/// shares are farther apart than the steps can change.
+bool keeps_local_clearly(const MappedStep& trial, const MappedStep& local, const StatesToMap& states);
 
 /// Keeps `straight` where the second mapping failed, and says so.
 MappedStep without_second(MappedStep straight, const Message& error);

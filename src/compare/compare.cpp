@@ -152,7 +152,7 @@ struct Series::Steps {
 
   /// Maps once, or twice where the first mapping slips. A step that continues from the one before is mapped once: its
   /// way is composed of small steps. Where atoms go far, so that it slips most likely, the first mapping takes long
-  /// steps, and is made again in usual ones if it is to be kept.
+  /// steps, and is made again in usual ones if it is to be kept, or if the steps may decide about that.
   /// @param before the step to continue from; null for the source
   /// @param again  from may_map_again()
   MappedStep map_as_needed(const StatesToMap& states, const CommonFrame& frame, const LastStep* before, bool again,
@@ -162,16 +162,20 @@ struct Series::Steps {
       return map_once(states, frame, {before, "morph", step_factor}, kept, progress, clock);
     };
     again = again && before == nullptr;
-    const bool is_trial = again && will_slip(states, frame);
+    bool is_trial = again && will_slip(states, frame);
     MappedStep straight = map_straight(is_trial ? kTrialSteps : 1);
-    if (!again || !slips(straight, states)) return is_trial ? map_straight(1) : std::move(straight);
+    if (is_trial && !slips_clearly(straight, states)) {
+      straight = map_straight(1);
+      is_trial = false;
+    }
+    if (!again || !slips(straight, states)) return straight;
     CommonFrame local = frame;
     local.follows = kLocalMotions;
     local.followed =
         local_motions(states.source, states.target, states.alignment.pairing, frame.from_source, frame.from_target);
     try {
       MappedStep second = map_once(states, local, {nullptr, "second morph"}, kept, progress, clock);
-      if (is_trial && !keeps_local(straight, second, states)) straight = map_straight(1);
+      if (is_trial && !keeps_local_clearly(straight, second, states)) straight = map_straight(1);
       return better_of(std::move(straight), std::move(second), states);
     } catch (const GeometryError& error) {  // no surface remains
       return without_second(is_trial ? map_straight(1) : std::move(straight), error.message());
