@@ -96,6 +96,56 @@ for call in (lambda: np.cross([1.0], [2.0]), lambda: np.linalg.norm(flat, 7, 9),
   CHECK(by_itself == printed_by(words_to_start(program)));
 }
 
+TEST_CASE("words_to_start: parts of NumPy are loaded where they are used") {
+  const ScratchFolder folder;
+  const std::string program = folder.write("a program", R"(#!/usr/bin/python3
+import sys
+try:
+    import numpy, urllib.request, xml.sax.saxutils
+except ImportError:
+    print("no NumPy")
+    sys.exit()
+names = ["numpy.random", "numpy.fft", "numpy.ma", "numpy.polynomial", "urllib.request"]
+print([name for name in names if "__file__" in vars(sys.modules[name])], file=sys.stderr)
+from numpy import ma
+print(numpy.random.RandomState(1).randint(10), numpy.fft.fft([1, 2]), ma.array([1, 2], mask=[0, 1]))
+print(numpy.polynomial.Polynomial([1, 2])(3), urllib.request.pathname2url("a b"))
+print([name for name in names if "__file__" not in vars(sys.modules[name])])
+)");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::string by_itself = printed_by({program});
+  if (by_itself == "no NumPy\n") {
+    MESSAGE("SKIPPED: no NumPy; install it (Debian: python3-numpy)");
+    return;
+  }
+  CHECK(by_itself.find("5 [ 3.+0.j -1.+0.j] [1 --]\n7.0 a%20b\n[]\n") == 0);
+  CHECK(by_itself == printed_by(words_to_start(program)));
+  espdiff::ProgramCall call;
+  call.words = words_to_start(program);
+  CHECK(espdiff::run_program(call).messages == "[]\n");
+}
+
+TEST_CASE("words_to_start: PDB2PQR's definitions are copied as deeply") {
+  const ScratchFolder folder;
+  std::filesystem::create_directory(folder.file("pdb2pqr"));
+  folder.write("pdb2pqr/__init__.py", "");
+  folder.write("pdb2pqr/definitions.py", "import copy\nclass Residue:\n    atoms = None\n");
+  const std::string program = folder.write("a program", R"(#!/usr/bin/python3
+import copy, sys
+from pdb2pqr import definitions
+residue = definitions.Residue()
+residue.atoms = [[1, 2]] * 2
+deep, flat = definitions.copy.deepcopy(residue), definitions.copy.copy(residue)
+residue.atoms[0][0] = 7
+print(type(deep).__name__, deep.atoms, deep.atoms[0] is deep.atoms[1], flat.atoms, copy.deepcopy(len))
+print(definitions.copy is copy, file=sys.stderr)
+)");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::string by_itself = printed_by({program});
+  CHECK(by_itself == "Residue [[1, 2], [1, 2]] True [[7, 2], [7, 2]] <built-in function len>\n");
+  CHECK(by_itself == printed_by(words_to_start(program)));
+}
+
 TEST_CASE("words_to_start: other programs run as they are") {
   const ScratchFolder folder;
   for (const char* content : {"#!/bin/sh\necho it\n",
