@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/files/file_kind.h"
 #include "io/frames/dcd_head.h"
 #include "io/frames/xdr_frames.h"
+#include "io/structures/amber_frames.h"
 #include "io/structures/structure_file.h"
 
 namespace espdiff {
@@ -23,7 +25,7 @@ FrameFiles::FrameFiles(std::vector<std::string> paths, OpenStructure open)
   }
 }
 
-/// Readers take a DCD, XTC or TRR that was cut off for a whole one.
+/// Readers take a DCD, XTC, TRR or NetCDF trajectory that was cut off for a whole one.
 void FrameFiles::compare_with_size(const std::string& path, int n_read) {
   std::int64_t n_whole = 0;
   std::string missing;
@@ -33,6 +35,9 @@ void FrameFiles::compare_with_size(const std::string& path, int n_read) {
   } else if (const std::optional<XdrFrames> frames = read_xdr_frames(path)) {
     n_whole = frames->have_positions ? frames->n_whole : n_read;
     missing = frames->missing;
+  } else if (kind_of_file(path) == FileKind::kNetcdf) {
+    n_whole = n_read;
+    missing = AmberNetcdf(bytes_of_file(path)).missing();
   } else {
     return;
   }

@@ -107,7 +107,7 @@ std::string topology_beside(const StructureFile& file, const StructureOptions& s
     std::error_code missing;
     if (path == file.path() || !fs::is_regular_file(path, missing)) continue;
     try {
-      if (read_topology(path).names.size() == file.read({structure.model, true, true, {}}).size()) return path;
+      if (read_topology(path).names.size() == file.n_atoms(structure.model)) return path;
     } catch (const Error&) {
       // Whoever means it gives it, and learns what is wrong with it.
     }
@@ -198,15 +198,18 @@ std::optional<Preparation> charge_molecule(Molecule& molecule, const InputOption
 
 LoadedState load_state(const StructureFile& file, const StateRequest& request, const InputOptions& options,
                        const Progress& progress) {
-  const std::string topology = option_of_side(request.role, options, &SideInput::topology);
   StructureOptions structure = request.structure;
   structure.assembly = options.assembly;
+  std::string topology = option_of_side(request.role, options, &SideInput::topology);
+  if (topology.empty() && file.needs_atoms()) topology = topology_beside(file, structure);
   LoadedState state;
   if (!topology.empty()) {
     if (!structure.assembly.empty())
       throw InputError(option("assembly") + " and a topology were given; a topology lists the atoms of the file");
     const Topology charges = read_topology(topology);
-    state.everything = file.read({structure.model, true, true, {}});
+    const StructureOptions everything{structure.model, true, true, {}};
+    state.everything =
+        file.needs_atoms() ? file.read_with(read_topology_atoms(topology), everything) : file.read(everything);
     take_topology(state.everything, charges);
     state.molecule = keep_kinds(state.everything, structure);
     state.charge_files.push_back({"topology", topology, charges.sha256});

@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "frames/frame_state.h"
-#include "io/frames/molfile_plugins.h"
 #include "io/frames/open_structure.h"
 #include "io/structures/structure_file.h"
 #include "report/state_report.h"
@@ -40,10 +39,12 @@ void MovingState::open(const std::vector<std::string>& files) {
 
 void MovingState::load(const std::string& topology, int model, const std::vector<std::string>& files) {
   const bool is_topology = opener_.needs_coordinates();
-  if (is_topology && (files.empty() || !needs_molfile_reader(files.front())))
-    throw InputError(topology + ": is a topology without coordinates" +
-                     (files.empty() ? "" : ", and " + files.front() + " is no trajectory") +
-                     "; give a structure first, and the topology as " + option("topology"));
+  if (is_topology && files.empty())
+    throw InputError(topology + ": is a topology without coordinates; give a structure first, and the topology as " +
+                     option("topology"));
+  // As VMD takes them: a topology, then a structure with the places of its atoms.
+  const bool is_of_structure = is_topology && !has_coordinates_alone(files.front());
+  if (is_of_structure) input_.both.topology = topology;
   // A trajectory that is open already is not read again.
   const auto structure = is_topology ? nullptr : open_structure(topology);
   const StructureFile& file = is_topology ? *frames_->file_of_frame(0).first : *structure;
@@ -52,8 +53,10 @@ void MovingState::load(const std::string& topology, int model, const std::vector
   state_ = load_for(options_.potential, !options_.has_maps, file, request, input_, progress_);
   if (!is_topology) file.require_unchanged(opener_.sha256());
   const std::string name = to_string(role_);
-  inputs_ = state_inputs(name, {name, topology, is_topology ? opener_.sha256() : file.sha256()}, state_);
-  if (is_topology) inputs_.push_back({name + "_coordinates", files.front(), file.sha256()});
+  inputs_ = is_of_structure
+                ? state_inputs(name, {name, files.front(), file.sha256()}, state_)
+                : state_inputs(name, {name, topology, is_topology ? opener_.sha256() : file.sha256()}, state_);
+  if (is_topology && !is_of_structure) inputs_.push_back({name + "_coordinates", files.front(), file.sha256()});
 }
 
 ComparedState MovingState::read(int number, StateRole role, const PotentialPlan& potential) {

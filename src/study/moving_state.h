@@ -21,8 +21,8 @@ struct MovingStateOptions {
 /// Frames, and their state: atoms, charges, radii.
 class MovingState {
  public:
-  /// Loads the state. Keeps references to input and progress.
-  /// @param topology a structure, or a topology, whose coordinates are then those of a frame
+  /// Loads the state. Keeps a reference to progress.
+  /// @param topology a structure, or a topology, whose coordinates are then those of a frame or of a structure in files
   /// @param model    of a structure with several, from 1; of a topology the frame of the first trajectory
   /// @param files    of the frames; none where the state alone is compared
   /// @throws as load_for(), TrajectoryOpener::open()
@@ -46,7 +46,7 @@ class MovingState {
 
   MovingStateOptions options_;
   StateRole role_;
-  const InputOptions& input_;
+  InputOptions input_;
   const Progress& progress_;
   TrajectoryOpener opener_;
   std::optional<FrameFiles> frames_;

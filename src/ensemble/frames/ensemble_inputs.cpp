@@ -16,7 +16,6 @@
 #include "frames/frame_range.h"
 #include "frames/frame_state.h"
 #include "io/files/sha256.h"
-#include "io/frames/molfile_plugins.h"
 #include "io/structures/structure_file.h"
 #include "mapping/map_recipe.h"
 #include "options/settings.h"
@@ -68,7 +67,7 @@ void EnsembleInputs::name_replicates() {
 OpenStructure EnsembleInputs::opener_of(const std::string& topology) {
   if (topology.empty())
     return [](const std::string& path) {
-      if (needs_molfile_reader(path))
+      if (has_coordinates_alone(path))
         throw InputError(path + ": a trajectory or topology has no structure of its own; name the structure or " +
                          "topology of its atoms first in the group, then the trajectories");
       return open_structure(path);

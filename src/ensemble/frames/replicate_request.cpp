@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "io/files/read_csv.h"
-#include "io/frames/molfile_plugins.h"
+#include "io/frames/open_structure.h"
 #include "prepare/load_state.h"
 
 namespace espdiff {
@@ -41,7 +41,7 @@ std::vector<ReplicateRequest> replicates_of_groups(const std::vector<std::vector
     if (fs::exists(group.front()))
       throw InputError(option("group") + ": '" + group.front() +
                        "' is a file; the first word is the group's name, such as wild");
-    const bool has_topology = std::any_of(group.begin() + 2, group.end(), needs_molfile_reader);
+    const bool has_topology = std::any_of(group.begin() + 2, group.end(), has_coordinates_alone);
     for (std::size_t i = has_topology ? 2 : 1; i < group.size(); ++i) {
       replicates.push_back({group.front(), name_of_file(group[i]), {group[i]}, {}, {}, {}, {}, 0});
       if (has_topology) replicates.back().topology = group[1];

@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
 #include <utility>
 
+#include "io/text/column_lines.h"
 #include "io/text/text_cursor.h"
 
 namespace espdiff {
@@ -67,18 +71,35 @@ bool is_cube(std::string_view head) {
 /// GRO: a title, the number of atoms, then lines of residue number, two names and atom number in columns of five, and
 /// coordinates with points.
 bool is_gro(std::string_view head) {
-  const auto next_line = [&] {  // with its leading blanks, which are columns here
-    const std::string_view line = head.substr(0, head.find('\n'));
-    head.remove_prefix(std::min(line.size() + 1, head.size()));
-    return line;
-  };
-  next_line();
+  ColumnLines lines{head};
+  lines.next();
   long long number = 0;
-  if (!parse_integer(trimmed(next_line()), number) || number < 1) return false;
-  const std::string_view atom = next_line();
+  if (!parse_integer(trimmed(lines.next()), number) || number < 1) return false;
+  const std::string_view atom = lines.next();
   constexpr std::size_t kWidth = 5;
   return atom.size() > 4 * kWidth && parse_integer(trimmed(atom.substr(0, kWidth)), number) &&
          parse_integer(trimmed(atom.substr(3 * kWidth, kWidth)), number) && contains(atom.substr(4 * kWidth), ".");
+}
+
+/// Amber restart: a title, the number of atoms with at most time and temperature, then columns of twelve whose points
+/// stand over each other.
+bool is_amber_restart(std::string_view head) {
+  constexpr std::size_t kWidth = 12, kPointAt = 4;
+  ColumnLines lines{head};
+  lines.next();
+  const auto words = split_words(lines.next());
+  long long n = 0;
+  double number = 0;
+  const auto is_number = [&](std::string_view word) { return parse_number(word, number); };
+  if (words.empty() || words.size() > 3 || !parse_integer(words[0], n) || n < 1 ||
+      !std::all_of(words.begin(), words.end(), is_number))
+    return false;
+  const std::string_view numbers = lines.next();
+  for (std::size_t at = 0; at < 3 * kWidth; at += kWidth) {
+    const std::string_view field = numbers.substr(std::min(at, numbers.size()), kWidth);
+    if (field.size() != kWidth || field[kPointAt] != '.' || !is_number(trimmed(field))) return false;
+  }
+  return true;
 }
 
 /// By the first line that says something.
@@ -111,6 +132,7 @@ FileKind recognise(std::string_view head) {
   if (starts_with(head, "\xef\xbb\xbf")) return recognise(head.substr(3));  // byte order mark
   if (is_cube(head)) return FileKind::kCube;                                // before its title is taken for something
   if (is_gro(head)) return FileKind::kGro;
+  if (is_amber_restart(head)) return FileKind::kAmberRestart;
   const std::string unused_path;
   TextCursor cursor(head, unused_path);
   bool first = true;
@@ -126,11 +148,22 @@ FileKind recognise(std::string_view head) {
   return FileKind::kUnknownText;
 }
 
+FileKind kind_of_file(const std::string& path) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(path, missing)) return FileKind::kUnknownText;
+  std::string head(kRecogniseBytes, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  return recognise(head);
+}
+
 std::string describe(FileKind kind) {
   switch (kind) {
     case FileKind::kAtomRecords: return "a PDB or PQR structure";
     case FileKind::kMmcif: return "an mmCIF file";
     case FileKind::kGro: return "a GROMACS GRO structure";
+    case FileKind::kAmberRestart: return "an Amber restart";
     case FileKind::kMmjson: return "a JSON (mmJSON) file";
     case FileKind::kBinaryCif: return "a BinaryCIF structure";
     case FileKind::kMmtf: return "an MMTF structure";
@@ -138,7 +171,7 @@ std::string describe(FileKind kind) {
     case FileKind::kPsf: return "a PSF topology";
     case FileKind::kPrmtop: return "an Amber prmtop topology";
     case FileKind::kDcd: return "a DCD trajectory";
-    case FileKind::kNetcdf: return "a NetCDF file (an Amber trajectory?)";
+    case FileKind::kNetcdf: return "a NetCDF file";
     case FileKind::kHdf5: return "an HDF5 file";
     case FileKind::kDx: return "an OpenDX map";
     case FileKind::kCube: return "a Gaussian cube map";

@@ -13,6 +13,7 @@ enum class FileKind {
   kAtomRecords,  ///< PDB or PQR: which of them, see looks_like_pqr()
   kMmcif,        ///< any CIF
   kGro,
+  kAmberRestart,  ///< in text: a title, the number of atoms, and numbers in columns of twelve
   kMmjson,
   kBinaryCif,
   kMmtf,
@@ -35,6 +36,10 @@ constexpr std::size_t kRecogniseBytes = 65536;
 
 /// The format of a file that begins with `head`.
 FileKind recognise(std::string_view head);
+
+/// As recognise(), by the file's first bytes as they stand; kUnknownText for what is no regular file, such as a pipe,
+/// whose bytes can be read once.
+FileKind kind_of_file(const std::string& path);
 
 /// With its article, for "this looks like ...": "an OpenDX map".
 std::string describe(FileKind kind);

@@ -1,25 +1,21 @@
-// open_structure.cpp: which reader opens a file: ours for structures, VMD's for everything else, ours for PSF and DCD
-// without VMD.
+// open_structure.cpp: which reader opens a file: ours for structures and Amber's files, VMD's for everything else, ours
+// for PSF and DCD without VMD.
 #include "io/frames/open_structure.h"
 
 #include <utility>
 
 #include "base/error.h"
+#include "io/files/file_kind.h"
 #include "io/files/sha256.h"
 #include "io/frames/dcd_frames.h"
 #include "io/frames/frame_reader.h"
 #include "io/frames/molfile_file.h"
 #include "io/frames/molfile_plugins.h"
+#include "io/structures/amber_frames.h"
 #include "io/structures/read_topology.h"
-#include "io/text/text_cursor.h"
 
 namespace espdiff {
 namespace {
-
-bool is_psf_name(const std::string& path) {
-  const std::string ending = ".psf";
-  return path.size() > ending.size() && lower_case(path.substr(path.size() - ending.size())) == ending;
-}
 
 /// How to do without VMD: in Python as it is there, or by another front end.
 std::string without_plugins(const std::string& path) {
@@ -30,6 +26,11 @@ std::string without_plugins(const std::string& path) {
 }
 
 }  // namespace
+
+bool has_coordinates_alone(const std::string& path) {
+  const FileKind kind = kind_of_file(path);
+  return needs_molfile_reader(path) || kind == FileKind::kAmberRestart || kind == FileKind::kNetcdf;
+}
 
 std::unique_ptr<StructureFile> open_structure(const std::string& path) { return std::make_unique<StructureFile>(path); }
 
@@ -68,20 +69,29 @@ std::shared_ptr<const Molecule> TrajectoryOpener::atoms() {
     all = file.read({1, true, true, {}});
     sha256_ = file.sha256();
   } else {
+    const FileKind kind = kind_of_file(topology_);
     const FrameReader* const other = other_reader_of(topology_);
-    all = other != nullptr                             ? other->read_atoms(topology_)
-          : plugins_.empty() && is_psf_name(topology_) ? read_psf_atoms(topology_)
-                                                       : read_molfile_atoms(topology_, reader_of(topology_));
     sha256_ = sha256_of_file(topology_);
-    // As for a topology beside a structure: a prmtop's radii come with its charges.
-    if (is_topology(topology_)) take_topology(all, read_topology(topology_));
+    if (kind == FileKind::kPrmtop || (kind == FileKind::kPsf && other == nullptr && plugins_.empty())) {
+      all = read_topology_atoms(topology_);
+    } else {
+      all = other != nullptr ? other->read_atoms(topology_) : read_molfile_atoms(topology_, reader_of(topology_));
+      if (kind == FileKind::kPsf) take_topology(all, read_topology(topology_));
+    }
   }
   atoms_ = std::make_shared<const Molecule>(std::move(all));
   return atoms_;
 }
 
 std::unique_ptr<StructureFile> TrajectoryOpener::open(const std::string& path) {
-  if (!needs_molfile_reader(path)) return open_structure(path);
+  const FileKind kind = kind_of_file(path);
+  if (kind == FileKind::kNetcdf)  // read frame by frame
+    return std::make_unique<StructureFile>(std::make_unique<AmberNetcdf>(bytes_of_file(path)), atoms());
+  if (kind == FileKind::kAmberRestart || !needs_molfile_reader(path)) {
+    auto file = open_structure(path);
+    return file->needs_atoms() ? std::make_unique<StructureFile>(amber_frames(read_input(path)), atoms())
+                               : std::move(file);
+  }
   if (const FrameReader* const other = other_reader_of(path); other != nullptr) {
     const std::shared_ptr<const Molecule> all = atoms();
     return std::make_unique<StructureFile>(other->open(path, all->size()), all);

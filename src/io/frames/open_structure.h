@@ -17,11 +17,14 @@ struct MolfileReader;
 /// How a file is opened as a StructureFile.
 using OpenStructure = std::function<std::unique_ptr<StructureFile>(const std::string& path)>;
 
+/// Whether a file is a trajectory or the like, whose atoms come from another file.
+bool has_coordinates_alone(const std::string& path);
+
 /// A structure file: PQR, PDB, mmCIF or GRO. @throws as StructureFile
 std::unique_ptr<StructureFile> open_structure(const std::string& path);
 
-/// Opens what VMD's readers read as well, or where they are absent frame_reader() and DcdFrames. Trajectories get the
-/// atoms of a structure or topology.
+/// Opens Amber's coordinates, and what VMD's readers read, or where they are absent frame_reader() and DcdFrames.
+/// Trajectories get the atoms of a structure or topology.
 class TrajectoryOpener {
  public:
   /// @param topology a structure file, or a topology that VMD reads (PSF, prmtop, GRO, ...)

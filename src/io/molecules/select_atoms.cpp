@@ -185,6 +185,9 @@ Molecule keep_kinds(const Molecule& molecule, const StructureOptions& options) {
     const bool water = is_water_name(molecule.residues[static_cast<std::size_t>(atom.residue)].name);
     keep.push_back(water ? options.include_water : options.include_hetero || !atom.hetero);
   }
+  if (std::find(keep.begin(), keep.end(), true) == keep.end())
+    throw InputError(molecule.name + ": no atoms are left: all " + std::to_string(molecule.size()) +
+                     " are water, or HETATM records that were not asked for; include them");
   return keep_atoms(molecule, keep);
 }
 

@@ -127,8 +127,11 @@ bool fits_pdb(std::string_view line) {
 }
 
 /// PQR: at least name, number and five more fields, of which the last two (charge, radius) are numbers.
-bool fits_pqr(std::string_view line) {
-  const auto words = split_words(line);
+/// @param may_have_element behind them, as Amber writes it
+bool fits_pqr(std::string_view line, bool may_have_element) {
+  auto words = split_words(line);
+  if (may_have_element && words.size() > 8 && words.back().size() <= 2 && is_letter(words.back().front()))
+    words.pop_back();
   return words.size() >= 8 && is_number(words[words.size() - 1]) && is_number(words[words.size() - 2]);
 }
 
@@ -171,7 +174,7 @@ bool looks_like_pqr(const AtomModel& model, const std::string& path) {
   for (std::size_t i = 0; i < std::min(model.size(), kEnoughLines); ++i) {
     const std::string_view line = model[i].text;
     const bool pdb = fits_pdb(line);
-    const bool pqr = fits_pqr(line) && !(pdb && trimmed(line.substr(54)).empty());
+    const bool pqr = fits_pqr(line, !pdb) && !(pdb && trimmed(line.substr(54)).empty());
     if (pdb && pqr) {
       ++(has_pdb_decimals(line) ? both_as_pdb : both_as_pqr);
       // B factors are used for any number, but an occupancy below zero is a charge.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -97,7 +96,7 @@ std::size_t field_width(std::string_view format) {
 
 /// The sections that are read.
 std::map<std::string, Section> prmtop_sections(const std::string& text) {
-  constexpr const char* kRead[] = {"POINTERS", "ATOM_NAME", "CHARGE", "RADII"};
+  constexpr const char* kRead[] = {"POINTERS", "ATOM_NAME", "CHARGE", "RADII", "RESIDUE_LABEL", "RESIDUE_POINTER"};
   std::map<std::string, Section> sections;
   Section* section = nullptr;
   std::size_t width = 0;
@@ -148,7 +147,33 @@ std::vector<float> numbers_of(const std::string& path, const std::string& flag, 
   return numbers;
 }
 
-void read_prmtop(const std::string& text, Topology& topology) {
+/// Adds the atoms by their residues: labels, and the number of the first atom of each, from 1.
+void add_residues(const Topology& topology, std::map<std::string, Section>& sections, MoleculeBuilder& builder) {
+  const Section &labels = sections["RESIDUE_LABEL"], &firsts = sections["RESIDUE_POINTER"];
+  const auto first_of = [&](std::size_t residue) {
+    long long first = 0;
+    if (residue >= firsts.fields.size() || !parse_integer(firsts.fields[residue], first)) return std::size_t{0};
+    return static_cast<std::size_t>(std::max(first, 0LL));
+  };
+  AtomEntry entry;
+  std::size_t residue = 0;  // the next one
+  for (std::size_t i = 0; i < topology.names.size(); ++i) {
+    if (i + 1 == first_of(residue)) {
+      if (residue >= labels.fields.size())
+        throw FormatError(topology.path, labels.line, "%FLAG RESIDUE_LABEL has fewer residues than RESIDUE_POINTER");
+      entry.residue_name = labels.fields[residue];
+      entry.residue_number = static_cast<int>(++residue);
+    }
+    if (residue == 0)
+      throw FormatError(topology.path, firsts.line,
+                        "the prmtop's residues do not begin with its first atom (%FLAG RESIDUE_POINTER)");
+    entry.name = topology.names[i];
+    builder.add(entry);
+  }
+}
+
+/// @param builder receives the atoms with their residues; null to leave them out
+void read_prmtop(const std::string& text, Topology& topology, MoleculeBuilder* builder) {
   constexpr double kAmberCharge = 18.2223;
   const std::string& path = topology.path;
   auto sections = prmtop_sections(text);
@@ -165,26 +190,18 @@ void read_prmtop(const std::string& text, Topology& topology) {
       numbers_of(path, "CHARGE", sections["CHARGE"], n_atoms, 1 / kAmberCharge, -kLargestCharge, kLargestCharge);
   if (sections.count("RADII") > 0)
     topology.radii = numbers_of(path, "RADII", sections["RADII"], n_atoms, 1, 0, kLargestRadius_A);
+  // Made without a set of radii, a prmtop has zeros.
+  if (std::all_of(topology.radii.begin(), topology.radii.end(), [](float r) { return r == 0; })) topology.radii.clear();
   if (names.fields.size() < n_atoms)
     throw FormatError(path, names.line,
                       "%FLAG ATOM_NAME has " + std::to_string(names.fields.size()) + " names for " +
                           std::to_string(n_atoms) + " atoms; the file seems to be cut");
   for (std::size_t i = 0; i < n_atoms; ++i) topology.names.emplace_back(names.fields[i]);
+  if (builder != nullptr) add_residues(topology, sections, *builder);
 }
 
-}  // namespace
-
-bool is_topology(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw IoError(path, "the file cannot be opened");
-  std::string head(kRecogniseBytes, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
-  const FileKind kind = recognise(head);
-  return kind == FileKind::kPsf || kind == FileKind::kPrmtop;
-}
-
-Topology read_topology(const std::string& path) {
+/// @param builder see read_psf()
+Topology read_atoms(const std::string& path, MoleculeBuilder* builder) {
   Topology topology;
   topology.path = path;
   FileKind kind = FileKind::kUnknownText;
@@ -197,25 +214,22 @@ Topology read_topology(const std::string& path) {
   unify_line_ends(file.content);
   topology.sha256 = file.sha256;
   if (kind == FileKind::kPsf) {
-    read_psf(file.content, topology, nullptr);
+    read_psf(file.content, topology, builder);
   } else {
-    read_prmtop(file.content, topology);
+    read_prmtop(file.content, topology, builder);
   }
   return topology;
 }
 
-Molecule read_psf_atoms(const std::string& path) {
-  Topology topology;
-  topology.path = path;
-  FileContent file = read_input(path, [&](std::string_view head) {
-    const FileKind kind = recognise(head);
-    if (kind != FileKind::kPsf) throw InputError(path + ": this looks like " + describe(kind) + ", and is no PSF");
-  });
-  unify_line_ends(file.content);
+}  // namespace
+
+Topology read_topology(const std::string& path) { return read_atoms(path, nullptr); }
+
+Molecule read_topology_atoms(const std::string& path) {
   MoleculeBuilder builder(path, {1, true, true, {}});
-  read_psf(file.content, topology, &builder);
+  const Topology topology = read_atoms(path, &builder);
   Molecule molecule = builder.finish();
-  molecule.charges = std::move(topology.charges);
+  take_topology(molecule, topology);
   return molecule;
 }
 

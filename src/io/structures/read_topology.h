@@ -16,17 +16,15 @@ struct Topology {
   std::vector<float> radii;        ///< Angstrom: prmtop's intrinsic Born radii; empty for a PSF
 };
 
-/// Whether a file's content is that of a PSF or a prmtop. @throws IoError
-bool is_topology(const std::string& path);
-
 /// Reads a PSF (also EXT, XPLOR, NAMD) or a prmtop, distinguished by content. Charges of a prmtop are divided
 /// by 18.2223.
 /// @throws IoError, InputError (neither of them), FormatError (with line: sections missing, cut or malformed)
 Topology read_topology(const std::string& path);
 
-/// The atoms of a PSF, all at the origin, with residues, and charges; radii are by element.
-/// @throws as read_topology(); InputError (it is none)
-Molecule read_psf_atoms(const std::string& path);
+/// The atoms of a PSF or prmtop, all at the origin, with residues and charges; radii are a prmtop's, otherwise by
+/// element. A prmtop's residues have no chains, and numbers from 1.
+/// @throws as read_topology()
+Molecule read_topology_atoms(const std::string& path);
 
 /// Gives a molecule the charges (and radii, if any) of a topology that lists the same atoms in the same order.
 /// @param everything all atoms of the file

@@ -1,17 +1,14 @@
-// structure_file.cpp: finds out what a structure file is and hands it to the reader for it; frames of trajectories.
+// structure_file.cpp: finds out what a structure file is and hands it to the reader for it.
 #include "io/structures/structure_file.h"
 
-#include <cmath>
 #include <utility>
 
 #include "base/error.h"
-#include "base/formatted.h"
 #include "base/text/joined_words.h"
 #include "io/files/file_kind.h"
 #include "io/files/read_input.h"
 #include "io/files/sha256.h"
-#include "io/molecules/select_atoms.h"
-#include "io/structures/coordinate_file.h"
+#include "io/structures/frame_models.h"
 #include "io/structures/structure_format.h"
 
 namespace espdiff {
@@ -36,7 +33,6 @@ std::string other_format() {
     case FileKind::kPsf:
     case FileKind::kPrmtop:
     case FileKind::kDcd:
-    case FileKind::kNetcdf:
       remedy =
           "the command line's trajectories take topology and frames as they are; otherwise load both in VMD and use "
           "espdiff there, or write a PQR from VMD and give that";
@@ -58,52 +54,6 @@ const StructureFormat& format_of_structure(const std::string& path, std::string_
   refuse_as_structure(path, kind);
 }
 
-/// The frames of a trajectory, with the atoms of another file.
-class TrajectoryModels : public StructureModels {
- public:
-  TrajectoryModels(std::unique_ptr<CoordinateFile> file, std::shared_ptr<const Molecule> atoms)
-      : file_(std::move(file)), atoms_(std::move(atoms)) {}
-
-  int n_models() const override { return file_->n_frames(); }
-  std::optional<UnitCell> unit_cell(int model) const override { return frame(model).cell; }
-
-  Molecule read(const StructureOptions& options) const override {
-    Molecule molecule = *atoms_;
-    const CoordinateFrame& read = frame(options.model);
-    for (std::size_t i = 0; i < molecule.size(); ++i) molecule.positions[i] = static_cast<Vec3d>(read.positions[i]);
-    molecule.name = file_->path() + ", frame " + std::to_string(options.model - 1);
-    if (!options.assembly.empty())
-      throw InputError(file_->path() + ": is a trajectory, which describes no assemblies; leave " + option("assembly") +
-                       " out");
-    return keep_kinds(molecule, options);
-  }
-
- private:
-  const CoordinateFrame& frame(int model) const {
-    if (model < 1 || model > file_->n_frames())
-      throw InputError(file_->path() + ": there is no frame " + std::to_string(model - 1) + "; it has " +
-                       std::to_string(file_->n_frames()) + ", from 0");
-    const CoordinateFrame& read = file_->frame(model - 1);
-    for (std::size_t i = 0; i < read.positions.size(); ++i) check_position(read.positions[i], i, model - 1);
-    return read;
-  }
-
-  /// A frame that was damaged is an error of its own; the others are good. Not finite is not below the limit.
-  void check_position(const Vec3f& p, std::size_t atom, int number) const {
-    constexpr float kFarthest_A = 1e6F;
-    const auto is_possible = [](float x) { return std::fabs(x) <= kFarthest_A; };
-    if (is_possible(p.x) && is_possible(p.y) && is_possible(p.z)) return;
-    throw FormatError(file_->path(), 0,
-                      "frame " + std::to_string(number) + ": atom " + std::to_string(atom) +
-                          formatted(" is at (%g, %g, %g) A", static_cast<double>(p.x), static_cast<double>(p.y),
-                                    static_cast<double>(p.z)) +
-                          ", and coordinates are numbers within 10^6 A; write the frame again, or leave it out");
-  }
-
-  std::unique_ptr<CoordinateFile> file_;
-  std::shared_ptr<const Molecule> atoms_;
-};
-
 }  // namespace
 
 StructureFile::StructureFile(const std::string& path) : path_(path) {
@@ -114,7 +64,7 @@ StructureFile::StructureFile(const std::string& path) : path_(path) {
 }
 
 StructureFile::StructureFile(std::unique_ptr<CoordinateFile> frames, std::shared_ptr<const Molecule> atoms)
-    : path_(frames->path()), models_(std::make_unique<TrajectoryModels>(std::move(frames), std::move(atoms))) {}
+    : path_(frames->path()), models_(std::make_unique<FrameModels>(std::move(frames), std::move(atoms))) {}
 
 StructureFile::~StructureFile() = default;
 
@@ -131,7 +81,16 @@ void StructureFile::require_unchanged(const std::string& before) const {
 int StructureFile::n_models() const { return models_->n_models(); }
 std::optional<UnitCell> StructureFile::unit_cell(int model) const { return models_->unit_cell(model); }
 long StructureFile::line_of(int model, const Residue& residue) const { return models_->line_of(model, residue); }
+bool StructureFile::needs_atoms() const { return models_->needs_atoms(); }
 Molecule StructureFile::read(const StructureOptions& options) const { return models_->read(options); }
+
+Molecule StructureFile::read_with(const Molecule& atoms, const StructureOptions& options) const {
+  return models_->read_with(atoms, options);
+}
+
+std::size_t StructureFile::n_atoms(int model) const {
+  return needs_atoms() ? models_->n_atoms() : read({model, true, true, {}}).size();
+}
 
 Molecule read_structure(const std::string& path, const StructureOptions& options) {
   return StructureFile(path).read(options);

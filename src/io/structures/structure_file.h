@@ -1,7 +1,8 @@
-// structure_file.h: molecules from structure files (PQR, PDB, mmCIF, GRO), distinguished by content; their models, or
-// the frames of a trajectory with the atoms of another file, one after the other.
+// structure_file.h: molecules from structure files (PQR, PDB, mmCIF, GRO, Amber's coordinates), distinguished by
+// content; their models, or the frames of a trajectory with the atoms of another file, one after the other.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,8 +56,16 @@ class StructureFile {
   std::optional<UnitCell> unit_cell(int model) const;
   /// The first line of a residue in a PDB file, from 1; 0 where it is not found, and of other formats.
   long line_of(int model, const Residue& residue) const;
+  /// Whether it has coordinates alone, such as Amber's restart files, so that a topology gives their atoms:
+  /// read() refuses it.
+  bool needs_atoms() const;
+  /// All atoms of a model, water too. @throws as read()
+  std::size_t n_atoms(int model) const;
   /// @throws as read_structure()
   Molecule read(const StructureOptions& options) const;
+  /// Of a file that needs_atoms(). @param atoms all of them, in its order
+  /// @throws as read(); InputError (another number of atoms)
+  Molecule read_with(const Molecule& atoms, const StructureOptions& options) const;
 
  private:
   std::string path_;

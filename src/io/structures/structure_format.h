@@ -1,6 +1,7 @@
 // structure_format.h: one format of structure files, and the table of them.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,10 @@ class StructureModels {
   /// See StructureFile. @param model from 1
   virtual std::optional<UnitCell> unit_cell(int /*model*/) const { return std::nullopt; }
   virtual long line_of(int /*model*/, const Residue& /*residue*/) const { return 0; }
+  /// See StructureFile: of formats that have coordinates alone.
+  virtual bool needs_atoms() const { return false; }
+  virtual std::size_t n_atoms() const { return 0; }
+  virtual Molecule read_with(const Molecule& /*atoms*/, const StructureOptions& options) const { return read(options); }
 };
 
 /// A format. Its file, `io/structures/formats/NAME.cpp`, has a function `NAME_format()` that returns it.

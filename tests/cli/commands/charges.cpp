@@ -12,6 +12,7 @@
 #include "base/formatted.h"
 #include "cli/run_espdiff.h"
 #include "io/files/read_csv.h"
+#include "io/structures/structure_file.h"
 #include "io/vtk/read_vtp.h"
 
 using namespace espdiff_test;  // NOLINT: a test
@@ -36,6 +37,43 @@ Json run(const std::string& arguments, const std::string& output) {
   // 3: compared, and not trusted
   REQUIRE_MESSAGE((outcome.status == 0 || outcome.status == 3), outcome.err);
   return Json::parse(read_file(output + ".json"));
+}
+
+/// Values in a section of a prmtop, n on a line.
+template <typename Value>
+void add_section(std::string& text, const std::string& flag, const char* format, std::size_t n_values, int n_on_line,
+                 Value value) {
+  text += "%FLAG " + flag + "\n%FORMAT(" + format + ")\n";
+  for (std::size_t i = 0; i < n_values; ++i)
+    text += value(i) + ((i + 1) % static_cast<std::size_t>(n_on_line) == 0 || i + 1 == n_values ? "\n" : "");
+}
+
+std::string prmtop_of(const espdiff::Molecule& m) {
+  std::vector<std::size_t> first;  // [residue], from 1
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    if (static_cast<std::size_t>(m.atoms[i].residue) == first.size()) first.push_back(i + 1);
+  }
+  const auto integer = [](std::size_t n) { return espdiff::formatted("%8d", static_cast<int>(n)); };
+  const auto name = [](const std::string& word) { return (word + "    ").substr(0, 4); };
+  std::string text = "%VERSION  VERSION_STAMP = V0001.000\n";
+  add_section(text, "POINTERS", "10I8", 1, 10, [&](std::size_t) { return integer(m.size()); });
+  add_section(text, "ATOM_NAME", "20a4", m.size(), 20, [&](std::size_t i) { return name(m.atoms[i].name); });
+  add_section(text, "CHARGE", "5E16.8", m.size(), 5,
+              [&](std::size_t i) { return espdiff::formatted("%16.8E", 18.2223 * static_cast<double>(m.charges[i])); });
+  add_section(text, "RESIDUE_LABEL", "20a4", first.size(), 20, [&](std::size_t r) { return name(m.residues[r].name); });
+  add_section(text, "RESIDUE_POINTER", "10I8", first.size(), 10, [&](std::size_t r) { return integer(first[r]); });
+  add_section(text, "RADII", "5E16.8", m.size(), 5,
+              [&](std::size_t i) { return espdiff::formatted("%16.8E", static_cast<double>(m.radii[i])); });
+  return text;
+}
+
+std::string restart_of(const espdiff::Molecule& m) {
+  std::string text = "\n" + std::to_string(m.size()) + "\n";
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) text += espdiff::formatted("%12.7f", m.positions[i][axis]);
+    if (i % 2 == 1 || i + 1 == m.size()) text += "\n";
+  }
+  return text;
 }
 
 /// The rows of a trajectory without its head, and without their checksums, which depend on the head.
@@ -131,6 +169,59 @@ TEST_CASE("compare and trajectory --topology: a PSF's charges beside coordinates
   CHECK(fewer.status == 2);
   CHECK(n_lines(fewer.err) == 1);
   CHECK_MESSAGE(contains(fewer.err, "1231"), fewer.err);
+}
+
+TEST_CASE("trajectory: a topology and a structure of its atoms, as VMD takes them") {
+  const auto pdb = real_input("ubq/ubq.pdb"), psf = real_input("ubq/ubq.psf");
+  if (!pdb || !psf) return;
+  const ScratchFolder folder;
+  const auto rows_of = [&](const std::string& arguments, const std::string& name) {
+    const Outcome outcome = run_espdiff("trajectory " + arguments + " --potential pb" + kQuick + folder.file(name));
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    return rows(folder.file(name));
+  };
+  CHECK(rows_of(*psf + " " + *pdb, "vmd.csv") == rows_of(*pdb + " " + *pdb + " --topology " + *psf, "option.csv"));
+  const Outcome alone = run_espdiff("trajectory " + *psf + " " + *psf + kQuick + folder.file("no.csv"));
+  CHECK(alone.status != 0);
+  CHECK(n_lines(alone.err) <= 2);
+}
+
+TEST_CASE("Amber's prmtop and restart: the numbers of a PQR with the same atoms, in every command") {
+  const auto first = real_input("series19_ubq_2k39/m00.pqr"), second = real_input("series19_ubq_2k39/m05.pqr");
+  if (!first || !second) return;
+  const ScratchFolder folder;
+  const auto write = [&](const std::string& pqr, const std::string& name) {
+    const espdiff::Molecule molecule = espdiff::read_structure(pqr, {1, true, true, {}});
+    folder.write(name + ".prmtop", prmtop_of(molecule));
+    return folder.write(name + ".inpcrd", restart_of(molecule));
+  };
+  const std::string a = write(*first, "a"), b = write(*second, "b"), prmtop = folder.file("a.prmtop");
+  const Json pqr = run("compare " + *first + " " + *second, folder.file("pqr")),
+             amber = run("compare " + a + " " + b, folder.file("amber")),
+             named = run("compare " + a + " " + b + " --topology " + prmtop, folder.file("named"));
+  CHECK(amber["potential"]["label"] == "Poisson-Boltzmann, 0.15 mol/l");
+  CHECK(amber["radii_origin"]["source"] == "file");
+  CHECK(amber["mean_abs_difference"].get<double>() ==
+        doctest::Approx(pqr["mean_abs_difference"].get<double>()).epsilon(1e-3));
+  CHECK(named["mean_abs_difference"] == amber["mean_abs_difference"]);
+  CHECK_MESSAGE(contains(amber["inputs"].dump(), "a.prmtop"), amber["inputs"].dump());
+  for (const std::string& source : {prmtop + " " + a, a + " " + a}) {
+    const std::string table = folder.file("frames.csv");
+    const Outcome frames =
+        run_espdiff("trajectory " + source + " " + b + " --potential pb --overwrite" + kQuick + table);
+    REQUIRE_MESSAGE(frames.status == 0, frames.err);
+    const espdiff::CsvTable read = espdiff::read_csv(table);
+    CHECK(read.rows.size() == 2);
+    CHECK(std::stod(read.rows.back().at(read.require("mean_abs_difference"))) ==
+          doctest::Approx(amber["mean_abs_difference"].get<double>()).epsilon(1e-6));
+  }
+  CHECK(run_espdiff("prepare " + a + " -q -o " + folder.file("a.pqr")).status == 0);
+  CHECK(espdiff::read_structure(folder.file("a.pqr")).size() == espdiff::read_structure(*first).size());
+  const std::string alone = folder.write("alone.inpcrd", read_file(a));
+  const Outcome refused = run_espdiff("surface " + alone + " -o " + folder.file("no.vtp"));
+  CHECK(refused.status == 2);
+  CHECK_MESSAGE(contains(refused.err, "atoms without their names; give the topology"), refused.err);
+  CHECK(n_lines(refused.err) == 1);
 }
 
 TEST_CASE("potential and surface prepare a structure without charges, as prepare does") {

@@ -3,7 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "base/error.h"
+#include "io/files/file_kind.h"
 #include "io/structures/structure_file.h"
 #include "io/structures/structure_text.h"
 #include "support/test_data.h"
@@ -36,8 +39,8 @@ TEST_CASE("read_topology: a PSF's and a prmtop's atoms") {
   CHECK(psf.names == std::vector<std::string>{"N", "HT1"});
   CHECK(psf.charges == std::vector<float>{-0.3F, 0.33F});
   CHECK(psf.radii.empty());
-  CHECK(is_topology(folder.file("a.psf")));
-  CHECK_FALSE(is_topology(folder.write("a.txt", "no topology\n")));
+  CHECK(kind_of_file(folder.file("a.psf")) == FileKind::kPsf);
+  CHECK(kind_of_file(folder.file("")) == FileKind::kUnknownText);
   const Topology prmtop = read_topology(folder.write("a.prmtop", kPrmtop));
   CHECK(prmtop.names == std::vector<std::string>{"N", "H1"});
   CHECK(prmtop.charges[1] == doctest::Approx(1).epsilon(1e-6));
@@ -98,13 +101,13 @@ TEST_CASE("read_topology: ubiquitin's PSF gives the charges of its PQR; DHFR's p
   CHECK(message_of([&] { take_topology(molecule, dhfr); }).find("has 23558 atoms, and") != std::string::npos);
 }
 
-TEST_CASE("read_psf_atoms: residues, chains and charges; a prmtop is refused") {
+TEST_CASE("read_topology_atoms: residues, chains and charges of a PSF") {
   const ScratchFolder folder;
-  const Molecule molecule =
-      read_psf_atoms(folder.write("a.psf",
-                                  "PSF\n\n       3 !NATOM\n       1 PROT 7    ALA  N    NH1  -0.470000  14.0070  0\n"
-                                  "       2 PROT 7    ALA  CA   CT1   0.070000  12.0110  0\n       3 PROT 8A   GLY  N  "
-                                  "  NH1  -0.400000  14.0070  0\n"));
+  const Molecule molecule = read_topology_atoms(
+      folder.write("a.psf",
+                   "PSF\n\n       3 !NATOM\n       1 PROT 7    ALA  N    NH1  -0.470000  14.0070  0\n"
+                   "       2 PROT 7    ALA  CA   CT1   0.070000  12.0110  0\n       3 PROT 8A   GLY  N  "
+                   "  NH1  -0.400000  14.0070  0\n"));
   REQUIRE(molecule.size() == 3);
   CHECK(molecule.charges == std::vector<float>{-0.47F, 0.07F, -0.4F});
   REQUIRE(molecule.residues.size() == 2);
@@ -114,5 +117,49 @@ TEST_CASE("read_psf_atoms: residues, chains and charges; a prmtop is refused") {
   CHECK(molecule.residues[1].chain == "PROT");
   CHECK(molecule.atoms[1].element == "C");
   CHECK(molecule.radii[0] > 1);
-  CHECK(message_of([&] { read_psf_atoms(folder.write("a.pdb", "ATOM  \n")); }).find("is no PSF") != std::string::npos);
+  CHECK(message_of([&] { read_topology_atoms(folder.write("a.pdb", "ATOM  \n")); }).find("not read as a topology") !=
+        std::string::npos);
+}
+
+TEST_CASE("read_topology_atoms: a prmtop's residues, and radii by element where it has zeros") {
+  const ScratchFolder folder;
+  const std::string residues =
+      "%FLAG RESIDUE_LABEL\n%FORMAT(20a4)\nALA LIG \n%FLAG RESIDUE_POINTER\n%FORMAT(10I8)\n       1       2\n";
+  const std::string prmtop = kPrmtop + residues;
+  const Molecule molecule = read_topology_atoms(folder.write("a.prmtop", prmtop));
+  REQUIRE(molecule.size() == 2);
+  REQUIRE(molecule.residues.size() == 2);
+  CHECK(molecule.residues[0].name == "ALA");
+  CHECK(molecule.residues[1].name == "LIG");
+  CHECK(molecule.residues[1].number == 2);
+  CHECK(molecule.residues[1].chain.empty());
+  CHECK(molecule.atoms[1].name == "H1");
+  CHECK(molecule.atoms[1].element == "H");
+  CHECK(molecule.atoms[1].residue == 1);
+  CHECK(molecule.charges[1] == doctest::Approx(1).epsilon(1e-6));
+  CHECK(molecule.radii == std::vector<float>{1.55F, 1.3F});
+  const std::string zeros =
+      replaced(replaced(prmtop, "1.55000000E+00", "0.00000000E+00"), "1.30000000E+00", "0.00000000E+00");
+  CHECK(read_topology_atoms(folder.write("b.prmtop", zeros)).radii == std::vector<float>{1.55F, 1.2F});
+  const auto refused = [&](const std::string& text) {
+    const std::string path = folder.write("c.prmtop", text);
+    return message_of([&] { read_topology_atoms(path); }).substr(path.size());
+  };
+  CHECK(refused(replaced(prmtop, "       1       2\n", "       2       3\n")) ==
+        ":20: the prmtop's residues do not begin with its first atom (%FLAG RESIDUE_POINTER)");
+  CHECK(refused(replaced(prmtop, "ALA LIG ", "ALA ")).find("has fewer residues than RESIDUE_POINTER") !=
+        std::string::npos);
+  CHECK(refused(kPrmtop).find("do not begin with its first atom") != std::string::npos);
+}
+
+TEST_CASE("read_topology_atoms: the solvated DHFR's prmtop and restart give its PDB's atoms") {
+  const auto prmtop = real_input("box_dhfr_jac/JAC.prmtop");
+  if (!prmtop) return;
+  const Molecule all = read_topology_atoms(*prmtop);
+  CHECK(all.size() == 23558);
+  CHECK(all.residues[0].name == "MET");
+  CHECK(all.atoms[0].name == "N");
+  const auto n_water =
+      std::count_if(all.residues.begin(), all.residues.end(), [](const Residue& r) { return r.name == "WAT"; });
+  CHECK(n_water == 7023);
 }

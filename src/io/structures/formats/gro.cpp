@@ -10,6 +10,7 @@
 #include "base/molecule/water.h"
 #include "io/molecules/molecule_builder.h"
 #include "io/structures/structure_format.h"
+#include "io/text/column_lines.h"
 #include "io/text/text_cursor.h"
 
 namespace espdiff {
@@ -111,25 +112,11 @@ std::optional<UnitCell> read_box(const std::string& path, std::string_view text,
   return cell;
 }
 
-/// Lines with their leading blanks, which are columns here.
-struct Lines {
-  std::string_view rest;
-  long number = 0;  ///< of the line read last, from 1
-
-  bool only_blanks_follow() const { return rest.find_first_not_of(" \t\r\n") == std::string_view::npos; }
-  std::string_view next() {
-    const std::string_view line = rest.substr(0, rest.find('\n'));
-    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    ++number;
-    return line;
-  }
-};
-
 class GroModels : public StructureModels {
  public:
   explicit GroModels(FileContent file) : file_(std::move(file)) {
     unify_line_ends(file_.content);
-    Lines lines{file_.content};
+    ColumnLines lines{file_.content};
     while (!lines.only_blanks_follow()) models_.push_back(next_model(lines));
   }
 
@@ -175,7 +162,7 @@ class GroModels : public StructureModels {
   }
 
   /// A title, the number of atoms, their lines, and the box.
-  GroModel next_model(Lines& lines) const {
+  GroModel next_model(ColumnLines& lines) const {
     GroModel model;
     lines.next();
     const std::string_view count = trimmed(lines.next());

@@ -44,9 +44,16 @@ bool parse_residue_number(std::string_view word, bool may_have_chain, AtomEntry&
   return true;
 }
 
+/// Takes off the element that Amber's ambpdb writes behind the radius.
+void drop_element(std::vector<std::string_view>& words) {
+  const std::string_view last = words.empty() ? std::string_view() : words.back();
+  if (!last.empty() && last.size() <= 2 && is_letter(last.front()) && is_letter(last.back())) words.pop_back();
+}
+
 /// Words of the line with a serial number that is glued to the record's name (HETATM10000) parted from it.
 std::vector<std::string_view> pqr_words(std::string_view line) {
   std::vector<std::string_view> words = split_words(line);
+  drop_element(words);
   if (words.front().size() > 6) {
     const std::string_view glued = words.front();
     words.front() = glued.substr(0, 6);
@@ -97,7 +104,8 @@ Attempt read_by_words(std::string_view line) {
 
 /// Charge and radius: two words, or, glued together, as %8.4f and %7.4f.
 bool parse_charge_and_radius(std::string_view tail, double& charge, double& radius) {
-  const auto words = split_words(tail);
+  auto words = split_words(tail);
+  drop_element(words);
   if (words.size() == 2) return parse_number(words[0], charge) && parse_number(words[1], radius);
   constexpr std::size_t kChargeWidth = 8;
   return words.size() == 1 && tail.size() > kChargeWidth &&
