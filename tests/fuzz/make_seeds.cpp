@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/structures/made_amber.h"
 #include "io/vtk/write_vtp.h"
 #include "planted_ensemble.h"
 #include "trajectory/series_csv.h"
@@ -92,6 +93,14 @@ void write_earlier_patch(const std::string& folder) {
 
 }  // namespace
 
+void write_netcdf(const std::string& folder) {
+  espdiff_test::NetcdfForm form;
+  write(folder + "/trajectory.nc", espdiff_test::made_netcdf({{1, 2}, {3, 4}}, form));
+  form.version = 5;
+  form.is_trajectory = false;
+  write(folder + "/restart.nc", espdiff_test::made_netcdf({{1, 2}}, form));
+}
+
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   const std::string seeds = argv[1];
@@ -100,4 +109,5 @@ int main(int argc, char** argv) {
   write_series_csv(seeds + "/series_csv");
   write_ensemble(seeds + "/ensemble");
   write_earlier_patch(seeds + "/earlier_patch");
+  write_netcdf(seeds + "/netcdf");
 }

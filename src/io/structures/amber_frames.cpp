@@ -16,7 +16,7 @@
 namespace espdiff {
 namespace {
 
-constexpr std::size_t kWidth = 12;  // of a column
+constexpr std::size_t kColumn = 12;  // of a column
 
 /// Edges of 1 A and less stand for none.
 std::optional<UnitCell> cell_of(const std::vector<double>& edges, const std::vector<double>& angles) {
@@ -46,8 +46,8 @@ AmberRestart::AmberRestart(const FileContent& file) : path_(file.path) {
   };
   while (!lines.rest.empty()) {
     const std::string_view line = lines.next(), text = line.substr(0, line.find_last_not_of(" \t\r") + 1);
-    for (std::size_t at = 0; at < text.size(); at += kWidth) {
-      const std::string_view field = trimmed(text.substr(at, kWidth));
+    for (std::size_t at = 0; at < text.size(); at += kColumn) {
+      const std::string_view field = trimmed(text.substr(at, kColumn));
       double number = 0;
       if (!parse_number(field, number))
         throw FormatError(path_, lines.number,

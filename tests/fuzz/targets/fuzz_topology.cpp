@@ -15,5 +15,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const float radius : topology.radii) {
       if (!(radius >= 0 && radius <= 1000)) std::abort();
     }
+    if (espdiff::read_topology_atoms(path).size() != n) std::abort();
   });
 }
