@@ -12,7 +12,7 @@
 
 namespace espdiff {
 
-/// Models of PQR, PDB, mmCIF or GRO files, or frames of trajectories, as frames, numbered from 0 through all files. One
+/// Models of structure files, or frames of trajectories, as frames, numbered from 0 through all files. One
 /// file at a time is in memory.
 class FrameFiles {
  public:

@@ -31,6 +31,7 @@
 #include "report/sections/provenance.h"
 #include "report/write_compare.h"
 #include "study/pair_study.h"
+#include "io/structures/structure_file.h"
 
 namespace espdiff::cli {
 namespace {
@@ -47,7 +48,7 @@ struct CompareArguments {
 };
 
 void add_input_options(CLI::App& p, CompareArguments& a) {
-  p.add_option("SOURCE", a.source, "Structure of the first state: PQR, PDB, mmCIF or GRO")->required();
+  p.add_option("SOURCE", a.source, "Structure of the first state: " + structure_format_names())->required();
   p.add_option("TARGET", a.target, "Structure of the second state")->required();
   p.add_option("-o,--output", a.output,
                "Prefix of the results OUT.json, OUT.vtp and OUT.residues.csv, or a folder for them; OUT.png draws a "

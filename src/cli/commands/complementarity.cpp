@@ -90,7 +90,7 @@ Verb add_complementarity(CLI::App& app) {
       "McCoy, Epa and Colman, J. Mol. Biol. 268, 570 (1997). Writes OUT.json, OUT.interface.csv (residues), "
       "OUT.first.vtp "
       "and\nOUT.second.vtp (each partner's surface). A structure without charges is prepared by PDB2PQR.");
-  parser->add_option("COMPLEX", a->source, "Structure of the complex: PQR, PDB, mmCIF or GRO")->required();
+  parser->add_option("COMPLEX", a->source, "Structure of the complex: " + structure_format_names())->required();
   parser->add_option("OTHER", a->target, "Structure of the same complex in another state");
   parser
       ->add_option("--interface", a->interface,

@@ -20,6 +20,7 @@
 #endif
 #if defined(ESPDIFF_HAVE_VTK)
 #include "view/display.h"
+#include "io/structures/structure_file.h"
 #endif
 
 namespace espdiff::cli {
@@ -62,9 +63,9 @@ int doctor_verb() {
   for (const BackEndStatus& status : {cpu_fourier_status(), cuda_fourier_status()})
     line(("pme on " + status.name).c_str(), status.available, status.description);
 #if defined(ESPDIFF_HAVE_GEMMI)
-  line("structures", true, "PQR, PDB, mmCIF, GRO");
+  line("structures", true, structure_format_names());
 #else
-  line("structures", false, "PQR only: gemmi was not found when this was built (Debian: gemmi-dev)");
+  line("structures", false, "no PDB and mmCIF: gemmi was not found when this was built (Debian: gemmi-dev)");
 #endif
   const std::string plugins = find_molfile_folder();
   const FrameReader* const other = frame_reader();

@@ -14,6 +14,7 @@
 #include "options/options.h"
 #include "study/matrix_settings.h"
 #include "study/matrix_study.h"
+#include "io/structures/structure_file.h"
 
 namespace espdiff::cli {
 namespace {
@@ -110,7 +111,7 @@ Verb add_matrix(CLI::App& app) {
       "Writes OUT.csv (a row for each ordered pair) and OUT.json (matrices, groups, clusters); `espdiff plot` draws "
       "them.\nA list is a table of comma-separated values whose first row names its columns: structure, and optionally "
       "model, map,\nunit (of the map), label, group. Paths are relative to the list.");
-  parser->add_option("VARIANT", a->files, "Structures: PQR, PDB, mmCIF or GRO; each model of a file is a variant");
+  parser->add_option("VARIANT", a->files, "Structures: " + structure_format_names() + "; each model of a file is a variant");
   parser->add_option("-o,--output", a->study.run.output, "Prefix of the results")->required();
   parser->add_option("--list", a->list, "Table of the variants, instead of files")->group("Molecules");
   parser->add_option("--groups", a->groups, "Table with the columns label and group")->group("Molecules");

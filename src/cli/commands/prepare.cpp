@@ -94,7 +94,7 @@ Verb add_prepare(CLI::App& app) {
       "Runs PDB2PQR (Debian: pdb2pqr) with PROPKA, and Open Babel (Debian: openbabel) for ligands. The verbs that "
       "compare do the same for structures without charges.\n\n"
       "Writes OUT.pqr, and OUT.json with what was added, repaired and protonated.");
-  parser->add_option("IN", a->input, "Structure: PDB, mmCIF, GRO or PQR")->required();
+  parser->add_option("IN", a->input, "Structure: " + structure_format_names())->required();
   parser->add_option("-o,--output", a->output, "PQR file to write; IN.pqr in the working folder");
   parser->add_option("--json", a->json, "File for what was done; default: the PQR's name with .json");
   add_model_option(*parser, a->structure);

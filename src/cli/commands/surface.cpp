@@ -129,7 +129,7 @@ Verb add_surface(CLI::App& app) {
       app.add_subcommand("surface", "Write a molecule's surface, with its potential if one is given or asked for");
   parser->footer(
       "A structure without charges is prepared by PDB2PQR where a potential is asked for, as by `espdiff compare`.");
-  parser->add_option("MOLECULE", a->molecule, "Structure: PQR, PDB, mmCIF or GRO")->required();
+  parser->add_option("MOLECULE", a->molecule, "Structure: " + structure_format_names())->required();
   parser->add_option("-o,--output", a->output, "Surface to write; MOLECULE.vtp in the working folder");
   parser->add_option("--map", a->map, "Potential map: DX, VTI or cube")->group("Potentials");
   parser->add_option("--map-unit", a->map_unit, "Unit of the map if the file does not give it")->group("Potentials");

@@ -15,6 +15,7 @@
 #include "io/files/check_outputs.h"
 #include "plot/gnuplot.h"
 #include "study/trajectory_study.h"
+#include "io/structures/structure_file.h"
 
 namespace espdiff::cli {
 namespace {
@@ -83,15 +84,15 @@ Verb add_trajectory(CLI::App& app) {
   CLI::App* parser = app.add_subcommand("trajectory", "Compare each frame with one structure, a row for each");
   parser->footer(
       "Frames are the models of the given files, numbered from 0 through all of them, or the frames of trajectories\n"
-      "that VMD reads (DCD, XTC, TRR, NetCDF, ...), with all atoms of SOURCE in its order. With a topology (PSF,\n"
-      "prmtop, GRO, ...) as SOURCE, the others are compared with the first frame. Frames without charges and radii\n"
-      "(PDB, mmCIF, GRO) take those of a PQR source, whose atoms must be theirs, one to one. The source's surface and\n"
-      "potential are computed once. An interrupted run can be resumed; OUT.csv.state holds its last mapping "
-      "meanwhile.\n"
+      "(Amber's NetCDF and restarts; what VMD reads: DCD, XTC, TRR, ...), with all atoms of SOURCE in its order. With\n"
+      "a topology (PSF, prmtop, ...) as SOURCE, the others are compared with the first frame, which may be a PDB.\n"
+      "Frames without charges and radii (PDB, mmCIF, GRO) take those of a PQR source, whose atoms must be theirs, one\n"
+      "to one. The source's surface and potential are computed once. An interrupted run can be resumed; OUT.csv.state\n"
+      "holds its last mapping meanwhile.\n"
       "The columns are explained in docs/tcl.md, Trajectories.");
   parser
       ->add_option("SOURCE", a->study.source,
-                   "Structure that each frame is compared with: PQR, PDB, mmCIF or GRO; or a topology")
+                   "Structure that each frame is compared with: " + structure_format_names() + "; or a topology")
       ->required();
   parser->add_option("FRAMES", a->study.frames, "Structure files whose models are the frames, or trajectories")
       ->required();

@@ -20,7 +20,7 @@ using OpenStructure = std::function<std::unique_ptr<StructureFile>(const std::st
 /// Whether a file is a trajectory or the like, whose atoms come from another file.
 bool has_coordinates_alone(const std::string& path);
 
-/// A structure file: PQR, PDB, mmCIF or GRO. @throws as StructureFile
+/// A structure file. @throws as StructureFile
 std::unique_ptr<StructureFile> open_structure(const std::string& path);
 
 /// Opens Amber's coordinates, and what VMD's readers read, or where they are absent frame_reader() and DcdFrames.

@@ -14,15 +14,8 @@
 namespace espdiff {
 namespace {
 
-/// "give a PQR, PDB, mmCIF or GRO file"
-std::string other_format() {
-  std::vector<std::string> names;
-  for (const StructureFormat& format : structure_formats()) names.push_back(format.name);
-  return "give a " + joined_words(names) + " file";
-}
-
 [[noreturn]] void refuse_as_structure(const std::string& path, FileKind kind) {
-  std::string remedy = other_format();
+  std::string remedy = "give a " + structure_format_names() + " file";
   switch (kind) {
     case FileKind::kDx:
     case FileKind::kCube:
@@ -55,6 +48,12 @@ const StructureFormat& format_of_structure(const std::string& path, std::string_
 }
 
 }  // namespace
+
+std::string structure_format_names() {
+  std::vector<std::string> names;
+  for (const StructureFormat& format : structure_formats()) names.push_back(format.name);
+  return joined_words(names);
+}
 
 StructureFile::StructureFile(const std::string& path) : path_(path) {
   const StructureFormat* format = nullptr;

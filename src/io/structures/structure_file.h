@@ -26,6 +26,9 @@ class StructureModels;
 /// @throws InputError (no atoms, model out of range, format not read or not supported by this build, with remedy)
 Molecule read_structure(const std::string& path, const StructureOptions& options = {});
 
+/// "PQR, PDB, mmCIF, GRO or Amber restart"
+std::string structure_format_names();
+
 /// Number of models in the file.
 /// @throws as read_structure()
 int count_models(const std::string& path);
