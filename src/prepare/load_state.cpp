@@ -98,23 +98,6 @@ std::vector<std::string> forced_states(const Molecule& source, const Molecule& r
   return states;
 }
 
-/// A PSF or prmtop that lies beside a file, has its name and lists as many atoms; empty for none.
-std::string topology_beside(const StructureFile& file, const StructureOptions& structure) {
-  namespace fs = std::filesystem;
-  if (!structure.assembly.empty()) return {};
-  for (const char* const ending : {".psf", ".prmtop", ".parm7"}) {
-    const std::string path = fs::path(file.path()).replace_extension(ending).string();
-    std::error_code missing;
-    if (path == file.path() || !fs::is_regular_file(path, missing)) continue;
-    try {
-      if (read_topology(path).names.size() == file.n_atoms(structure.model)) return path;
-    } catch (const Error&) {
-      // Whoever means it gives it, and learns what is wrong with it.
-    }
-  }
-  return {};
-}
-
 std::string topology_option(StateRole role) {
   return role == StateRole::kOnly ? "topology" : std::string(to_string(role)) + "-topology";
 }
@@ -154,6 +137,22 @@ std::string option_of_side(StateRole role, const InputOptions& options, std::str
 }
 
 }  // namespace
+
+std::string topology_beside(const StructureFile& file, const StructureOptions& structure) {
+  namespace fs = std::filesystem;
+  if (!structure.assembly.empty()) return {};
+  for (const char* const ending : {".psf", ".prmtop", ".parm7"}) {
+    const std::string path = fs::path(file.path()).replace_extension(ending).string();
+    std::error_code missing;
+    if (path == file.path() || !fs::is_regular_file(path, missing)) continue;
+    try {
+      if (read_topology(path).names.size() == file.n_atoms(structure.model)) return path;
+    } catch (const Error&) {
+      // Whoever means it gives it, and learns what is wrong with it.
+    }
+  }
+  return {};
+}
 
 const char* to_string(StateRole role) {
   switch (role) {

@@ -47,6 +47,9 @@ void MovingState::load(const std::string& topology, int model, const std::vector
   if (is_of_structure) input_.both.topology = topology;
   // A trajectory that is open already is not read again.
   const auto structure = is_topology ? nullptr : open_structure(topology);
+  // The frames' atoms are in the topology beside it, too.
+  if (structure != nullptr && structure->needs_atoms() && input_.both.topology.empty())
+    input_.both.topology = topology_beside(*structure, options_.structure);
   const StructureFile& file = is_topology ? *frames_->file_of_frame(0).first : *structure;
   StateRequest request{options_.structure, role_};
   request.structure.model = model;

@@ -21,6 +21,7 @@
 #include "field/field_kinds.h"
 #include "io/files/atomic_file.h"
 #include "io/files/check_outputs.h"
+#include "io/structures/structure_file.h"
 #include "options/options.h"
 #include "prepare/charges/preparation.h"
 #include "prepare/input_files.h"
@@ -31,7 +32,6 @@
 #include "report/sections/provenance.h"
 #include "report/write_compare.h"
 #include "study/pair_study.h"
-#include "io/structures/structure_file.h"
 
 namespace espdiff::cli {
 namespace {

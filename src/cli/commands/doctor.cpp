@@ -19,8 +19,8 @@
 #include "ensemble/file/hdf5_writer.h"
 #endif
 #if defined(ESPDIFF_HAVE_VTK)
-#include "view/display.h"
 #include "io/structures/structure_file.h"
+#include "view/display.h"
 #endif
 
 namespace espdiff::cli {

@@ -98,11 +98,10 @@ int ensemble_verb(const EnsembleArguments& a, const Context& context) {
 void add_input_options(CLI::App& p, EnsembleArguments& a) {
   const char* const group = "Groups";
   EnsembleRequest& inputs = a.study.inputs;
-  p.add_option(
-       "--group", a.groups,
-       "A group: its name, then its replicates: structure files whose models are the frames (PDB, PQR, ...), "
-       "or a structure or topology (PSF, prmtop, ...) and trajectories of its atoms (DCD, XTC, ...). Give it "
-       "twice to compare two groups, once to describe one")
+  p.add_option("--group", a.groups,
+               "A group: its name, then its replicates: structure files whose models are the frames (PDB, PQR, ...), "
+               "or a structure or topology (PSF, prmtop, ...) and trajectories of its atoms (DCD, XTC, ...). Give it "
+               "twice to compare two groups, once to describe one")
       ->type_name("NAME FILE...")
       ->group(group);
   p.add_option("--list", a.list,

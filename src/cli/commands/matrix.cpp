@@ -10,11 +10,11 @@
 #include "cli/verbs.h"
 #include "cli/words/help.h"
 #include "engine/engine.h"
+#include "io/structures/structure_file.h"
 #include "matrix/matrix_table.h"
 #include "options/options.h"
 #include "study/matrix_settings.h"
 #include "study/matrix_study.h"
-#include "io/structures/structure_file.h"
 
 namespace espdiff::cli {
 namespace {
@@ -111,7 +111,8 @@ Verb add_matrix(CLI::App& app) {
       "Writes OUT.csv (a row for each ordered pair) and OUT.json (matrices, groups, clusters); `espdiff plot` draws "
       "them.\nA list is a table of comma-separated values whose first row names its columns: structure, and optionally "
       "model, map,\nunit (of the map), label, group. Paths are relative to the list.");
-  parser->add_option("VARIANT", a->files, "Structures: " + structure_format_names() + "; each model of a file is a variant");
+  parser->add_option("VARIANT", a->files,
+                     "Structures: " + structure_format_names() + "; each model of a file is a variant");
   parser->add_option("-o,--output", a->study.run.output, "Prefix of the results")->required();
   parser->add_option("--list", a->list, "Table of the variants, instead of files")->group("Molecules");
   parser->add_option("--groups", a->groups, "Table with the columns label and group")->group("Molecules");

@@ -13,9 +13,9 @@
 #include "cli/words/help.h"
 #include "engine/engine.h"
 #include "io/files/check_outputs.h"
+#include "io/structures/structure_file.h"
 #include "plot/gnuplot.h"
 #include "study/trajectory_study.h"
-#include "io/structures/structure_file.h"
 
 namespace espdiff::cli {
 namespace {

@@ -85,12 +85,14 @@ std::shared_ptr<const Molecule> TrajectoryOpener::atoms() {
 
 std::unique_ptr<StructureFile> TrajectoryOpener::open(const std::string& path) {
   const FileKind kind = kind_of_file(path);
+  const bool has_atoms = needs_coordinates_ || !has_coordinates_alone(topology_);
   if (kind == FileKind::kNetcdf)  // read frame by frame
-    return std::make_unique<StructureFile>(std::make_unique<AmberNetcdf>(bytes_of_file(path)), atoms());
+    return std::make_unique<StructureFile>(std::make_unique<AmberNetcdf>(bytes_of_file(path)),
+                                           has_atoms ? atoms() : nullptr);
   if (kind == FileKind::kAmberRestart || !needs_molfile_reader(path)) {
     auto file = open_structure(path);
-    return file->needs_atoms() ? std::make_unique<StructureFile>(amber_frames(read_input(path)), atoms())
-                               : std::move(file);
+    return file->needs_atoms() && has_atoms ? std::make_unique<StructureFile>(amber_frames(read_input(path)), atoms())
+                                            : std::move(file);
   }
   if (const FrameReader* const other = other_reader_of(path); other != nullptr) {
     const std::shared_ptr<const Molecule> all = atoms();

@@ -36,7 +36,7 @@ class TrajectoryOpener {
   bool needs_coordinates() const { return needs_coordinates_; }
   /// Of the topology as its atoms were read; empty as long as no trajectory needed them.
   const std::string& sha256() const { return sha256_; }
-  /// A file of frames.
+  /// A file of frames. Where the topology is itself coordinates alone, such as an Amber restart, it needs_atoms().
   /// @throws as StructureFile, CoordinateFile, read_molfile_atoms(), take_topology(); DeviceError (VMD's readers are
   ///         not found); InputError (none of them reads this ending)
   std::unique_ptr<StructureFile> open(const std::string& path);

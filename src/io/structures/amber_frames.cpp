@@ -58,7 +58,7 @@ AmberRestart::AmberRestart(const FileContent& file) : path_(file.path) {
     }
     if (numbers.size() > 6 * n_atoms + 6)
       throw FormatError(path_, lines.number,
-                        "this Amber restart goes on after coordinates, velocities and cell of its " +
+                        "this Amber restart has more numbers than coordinates, velocities and cell of its " +
                             std::to_string(n_atoms) + " atoms; is the number of atoms in its second line right?");
   }
   const std::size_t n_more = numbers.size() % (3 * n_atoms);

@@ -127,10 +127,12 @@ bool fits_pdb(std::string_view line) {
 }
 
 /// PQR: at least name, number and five more fields, of which the last two (charge, radius) are numbers.
-/// @param may_have_element behind them, as Amber writes it
-bool fits_pqr(std::string_view line, bool may_have_element) {
+/// Amber writes the element behind them, as PDB files do behind numbers of two decimals.
+bool fits_pqr(std::string_view line) {
   auto words = split_words(line);
-  if (may_have_element && words.size() > 8 && words.back().size() <= 2 && is_letter(words.back().front()))
+  const auto has_many_decimals = [](std::string_view word) { return word.find('.') + 3 < word.size(); };
+  if (words.size() > 8 && words.back().size() <= 2 && is_letter(words.back().front()) &&
+      has_many_decimals(words[words.size() - 2]) && has_many_decimals(words[words.size() - 3]))
     words.pop_back();
   return words.size() >= 8 && is_number(words[words.size() - 1]) && is_number(words[words.size() - 2]);
 }
@@ -174,7 +176,7 @@ bool looks_like_pqr(const AtomModel& model, const std::string& path) {
   for (std::size_t i = 0; i < std::min(model.size(), kEnoughLines); ++i) {
     const std::string_view line = model[i].text;
     const bool pdb = fits_pdb(line);
-    const bool pqr = fits_pqr(line, !pdb) && !(pdb && trimmed(line.substr(54)).empty());
+    const bool pqr = fits_pqr(line) && !(pdb && trimmed(line.substr(54)).empty());
     if (pdb && pqr) {
       ++(has_pdb_decimals(line) ? both_as_pdb : both_as_pqr);
       // B factors are used for any number, but an occupancy below zero is a charge.

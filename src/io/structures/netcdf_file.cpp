@@ -49,7 +49,7 @@ ByteSource bytes_of_text(const std::string& path, std::string content) {
   const auto text = std::make_shared<const std::string>(std::move(content));
   return {path, text->size(), [text](std::uint64_t at, char* bytes, std::size_t n) {
             if (at > text->size() || n > text->size() - at) return false;
-            std::memcpy(bytes, text->data() + at, n);
+            text->copy(bytes, n, static_cast<std::size_t>(at));
             return true;
           }};
 }

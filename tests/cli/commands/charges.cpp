@@ -218,6 +218,10 @@ TEST_CASE("Amber's prmtop and restart: the numbers of a PQR with the same atoms,
   CHECK(run_espdiff("prepare " + a + " -q -o " + folder.file("a.pqr")).status == 0);
   CHECK(espdiff::read_structure(folder.file("a.pqr")).size() == espdiff::read_structure(*first).size());
   const std::string alone = folder.write("alone.inpcrd", read_file(a));
+  const std::string other = folder.write("other.inpcrd", read_file(b)), table = folder.file("by_option.csv");
+  const Outcome given =
+      run_espdiff("trajectory " + alone + " " + other + " --potential pb --topology " + prmtop + kQuick + table);
+  CHECK_MESSAGE(given.status == 0, given.err);
   const Outcome refused = run_espdiff("surface " + alone + " -o " + folder.file("no.vtp"));
   CHECK(refused.status == 2);
   CHECK_MESSAGE(contains(refused.err, "atoms without their names; give the topology"), refused.err);
