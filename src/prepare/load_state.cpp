@@ -10,6 +10,7 @@
 #include "align/residue_charges.h"
 #include "base/error.h"
 #include "base/not_a_number.h"
+#include "io/molecules/elements.h"
 #include "io/molecules/select_atoms.h"
 #include "io/structures/read_topology.h"
 #include "io/structures/structure_file.h"
@@ -152,6 +153,19 @@ std::string topology_beside(const StructureFile& file, const StructureOptions& s
     }
   }
   return {};
+}
+
+Molecule read_as_it_is(const StructureFile& file, const StructureOptions& structure) {
+  if (!file.needs_atoms()) return file.read(structure);
+  const std::string topology = topology_beside(file, structure);
+  if (!topology.empty()) return file.read_with(read_topology_atoms(topology), structure);
+  Molecule nameless;
+  const std::size_t n = file.n_atoms(structure.model);
+  nameless.residues.emplace_back();
+  nameless.atoms.resize(n);
+  nameless.positions.resize(n);
+  nameless.radii.assign(n, element_radius(""));
+  return file.read_with(nameless, structure);
 }
 
 const char* to_string(StateRole role) {

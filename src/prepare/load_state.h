@@ -63,6 +63,10 @@ struct StateRequest {
 /// A PSF or prmtop that lies beside a file, has its name and lists as many atoms; empty for none.
 std::string topology_beside(const StructureFile& file, const StructureOptions& structure);
 
+/// The atoms of a file before anyone has named a topology: where it needs_atoms(), those of the one beside it,
+/// otherwise atoms without names. @throws as StructureFile::read()
+Molecule read_as_it_is(const StructureFile& file, const StructureOptions& structure);
+
 /// Reads a state: builds the assembly, takes charges from a topology, drops and selects atoms, then takes charges from
 /// another state's PQR or has PDB2PQR make them. A molecule that has charges keeps them.
 /// @param options those of a comparison; the role picks its own selection and topology

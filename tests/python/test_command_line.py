@@ -25,9 +25,6 @@ def adk(data):
 @pytest.fixture
 def trajectory(program, tmp_path):
     """Rows of `espdiff trajectory`."""
-    doctor = subprocess.run([program, "doctor"], capture_output=True, text=True, check=True).stdout
-    if "by VMD's plugins" not in doctor:
-        pytest.skip("SKIPPED: VMD's molfile plugins are absent; put `vmd` on PATH, or set VMDDIR")
 
     def rows(*arguments, options=OPTIONS):
         output = tmp_path / "rows.csv"
@@ -39,6 +36,13 @@ def trajectory(program, tmp_path):
     return rows
 
 
+@pytest.fixture
+def plugins(program):
+    doctor = subprocess.run([program, "doctor"], capture_output=True, text=True, check=True).stdout
+    if "by VMD's plugins" not in doctor:
+        pytest.skip("SKIPPED: VMD's molfile plugins are absent; put `vmd` on PATH, or set VMDDIR")
+
+
 def write_frames(atoms, path, frames):
     with mda.Writer(str(path), len(atoms)) as writer:
         for frame in frames:
@@ -48,7 +52,9 @@ def write_frames(atoms, path, frames):
 
 # Relative differences of the numbers: TRR rounds to nm in single precision, XTC to 0.01 A.
 @pytest.mark.parametrize("ending, tolerance", [("dcd", 1e-12), ("trr", 2e-3), ("nc", 1e-12), ("xtc", 2e-2)])
-def test_every_format_gives_the_coordinates(adk, trajectory, tmp_path, ending, tolerance):
+def test_every_format_gives_the_coordinates(adk, trajectory, tmp_path, ending, tolerance, request):
+    if ending in ("trr", "xtc"):
+        request.getfixturevalue("plugins")
     frames = [0, 3]
     path = tmp_path / f"frames.{ending}"
     write_frames(adk.atoms, path, frames)
@@ -99,3 +105,25 @@ def test_a_prmtop_beside_coordinates(data, program, trajectory, tmp_path):
     coulomb = ["--potential", "coulomb", "--radii", "element", "--grid-spacing", "1.5"]
     row = trajectory(box / "tz2.truncoct.parm7", universe.trajectory.filename, "--frames", "3", options=coulomb)[0]
     assert float(row["mean_abs_difference"]) == pytest.approx(expected["mean_abs_difference"], rel=0.01)
+
+
+def test_amber_restarts_give_the_coordinates(data, trajectory, tmp_path):
+    """As text, which MDAnalysis reads, and as its NetCDF; water is left out. The topology is beside both, or the source."""
+    box = data / "box_tz2"
+    universe = mda.Universe(str(box / "tz2.truncoct.parm7"), str(box / "tz2.truncoct_from_nc.dcd"))
+    universe.trajectory[3]
+    restart, netcdf = tmp_path / "a.rst7", tmp_path / "b.nc"
+    numbers = [f"{x:12.7f}" for x in [*universe.atoms.positions.ravel(), *universe.dimensions]]
+    lines = ["".join(numbers[i:i + 6]) for i in range(0, len(numbers), 6)]
+    restart.write_text("\n".join([f"tz2\n{len(universe.atoms)}", *lines, ""]))
+    written = mda.Universe(universe.filename, str(restart), format="INPCRD").atoms.positions
+    assert np.abs(written - universe.atoms.positions).max() < 1e-5
+    write_frames(universe.atoms, netcdf, [3])
+    for file in (restart, netcdf):
+        (tmp_path / f"{file.stem}.parm7").write_bytes((box / "tz2.truncoct.parm7").read_bytes())
+        protein = universe.select_atoms("not resname WAT")
+        metrics = espdiff.compare(str(file), protein, potential="coulomb", radii="element", grid_spacing=1.5).metrics
+        assert metrics["rmsd_A"] < 1e-5
+        assert metrics["mean_abs_difference"] < 1e-3
+    row = trajectory(tmp_path / "a.parm7", restart, options=OPTIONS)[0]
+    assert float(row["rmsd_A"]) < 1e-5

@@ -19,6 +19,7 @@
 #include "potential/map_series_request.h"
 #include "potential/potential_plan.h"
 #include "potential/potential_settings.h"
+#include "prepare/load_state.h"
 #include "scene/scene.h"
 #include "study/matrix_settings.h"
 #include "trajectory/trajectory_settings.h"
@@ -231,7 +232,7 @@ Tcl_Obj* list_metrics(const Call&) {
 Tcl_Obj* facts_of_file(const Call& call) {
   const int model = to_int(call.arguments[1], "model");
   const StructureFile file(call.text(0));
-  const Molecule everything = file.read({model, true, true});
+  const Molecule everything = read_as_it_is(file, {model, true, true, {}});
   const PotentialFacts facts = potential_facts(everything, file.unit_cell(model));
   // Structures without charges get some.
   const bool charges = facts.has_charges || !find_pdb2pqr().empty();

@@ -20,6 +20,7 @@
 #include "io/molecules/select_atoms.h"
 #include "io/molecules/write_pqr.h"
 #include "io/structures/structure_file.h"
+#include "prepare/load_state.h"
 #include "python/src/boundary/arrays.h"
 #include "state_parts.h"
 
@@ -157,7 +158,7 @@ StatePtr from_file(const std::filesystem::path& path, int model, bool hetero, bo
   state->path = path.string();
   state->file = std::make_shared<const StructureFile>(state->path);
   state->structure = {model, hetero, water, {}};
-  state->molecule = state->file->read(state->structure);
+  state->molecule = read_as_it_is(*state->file, state->structure);
   state->input = {"", path.string(), state->file->sha256(), nullptr, state->structure};
   return state;
 }
