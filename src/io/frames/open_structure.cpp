@@ -94,6 +94,7 @@ std::unique_ptr<StructureFile> TrajectoryOpener::open(const std::string& path) {
     return file->needs_atoms() && has_atoms ? std::make_unique<StructureFile>(amber_frames(read_input(path)), atoms())
                                             : std::move(file);
   }
+  require_regular_file(path);
   if (const FrameReader* const other = other_reader_of(path); other != nullptr) {
     const std::shared_ptr<const Molecule> all = atoms();
     return std::make_unique<StructureFile>(other->open(path, all->size()), all);

@@ -25,10 +25,12 @@ namespace {
     case FileKind::kCcp4: remedy = "that is no structure; " + remedy; break;
     case FileKind::kPsf:
     case FileKind::kPrmtop:
+      remedy = "give the structure or restart of its atoms, and this as " + option("topology");
+      break;
     case FileKind::kDcd:
       remedy =
-          "the command line's trajectories take topology and frames as they are; otherwise load both in VMD and use "
-          "espdiff there, or write a PQR from VMD and give that";
+          "the command line's trajectory takes a topology and it; otherwise load both in VMD and use espdiff there, or "
+          "write a PQR from VMD and give that";
       break;
     case FileKind::kBinaryCif:
     case FileKind::kMmtf:

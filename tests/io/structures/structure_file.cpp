@@ -16,8 +16,7 @@ TEST_CASE("read_structure: real files of other formats are refused by name") {
       {"map_ngl/benzene-homo.cube", "a Gaussian cube map"},
       {"map_vti/hydrogen.vti", "a VTI map"},
       {"ubq/ubq.psf",
-       "a PSF topology, which is not read as a structure; the command line's trajectories take topology and frames as "
-       "they are; otherwise load both in VMD and use espdiff there, or write a PQR from VMD and give that"},
+       "a PSF topology, which is not read as a structure; give the structure or restart of its atoms, and this as "},
       {"traj_adk/adk_dims.dcd", "a DCD trajectory"},
       {"box_tz2/tz2.truncoct.parm7", "an Amber prmtop topology"},
       {"tim/dTIM_seq.csv",
