@@ -15,14 +15,14 @@ namespace espdiff {
 namespace {
 
 [[noreturn]] void refuse_as_structure(const std::string& path, FileKind kind) {
-  std::string remedy = "give a " + structure_format_names() + " file";
+  Message remedy("give a " + structure_format_names() + " file");
   switch (kind) {
     case FileKind::kDx:
     case FileKind::kCube:
     case FileKind::kVti:
     case FileKind::kVtkXml:
     case FileKind::kVtkLegacy:
-    case FileKind::kCcp4: remedy = "that is no structure; " + remedy; break;
+    case FileKind::kCcp4: remedy = Message("that is no structure; ") + remedy; break;
     case FileKind::kPsf:
     case FileKind::kPrmtop:
       remedy = "give the structure or restart of its atoms, and this as " + option("topology");
