@@ -25,6 +25,8 @@ FileKind recognise_binary(std::string_view head) {
   if (head.size() > 12 && (head.substr(4, 4) == "CORD" || head.substr(8, 4) == "CORD")) return FileKind::kDcd;
   if (starts_with(head, "CDF\x01") || starts_with(head, "CDF\x02")) return FileKind::kNetcdf;
   if (starts_with(head, "\x89HDF")) return FileKind::kHdf5;
+  if (starts_with(head, std::string_view("\0\0\0", 3)) && head.substr(4, 12).find("VERSION ") != std::string_view::npos)
+    return FileKind::kTpr;
   const std::string_view front = head.substr(0, 512);
   const bool is_message_pack = !front.empty() && (static_cast<unsigned char>(front[0]) & 0xf0U) == 0x80;
   const bool is_big_map = !front.empty() && static_cast<unsigned char>(front[0]) == 0xde;
@@ -141,6 +143,8 @@ FileKind recognise(std::string_view head) {
     if (starts_with(line, "#")) continue;
     const FileKind kind = recognise_first_line(line);
     if (first && kind != FileKind::kUnknownText) return kind;
+    const std::string lower = lower_case(line);
+    if (starts_with(lower, "[ moleculetype ]") || starts_with(lower, "[ defaults ]")) return FileKind::kGromacsTopology;
     // A title or the like may stand above the atoms.
     if (is_atom_line(line)) return FileKind::kAtomRecords;
     first = false;
@@ -170,6 +174,8 @@ std::string describe(FileKind kind) {
     case FileKind::kMol2: return "a Tripos mol2 structure";
     case FileKind::kPsf: return "a PSF topology";
     case FileKind::kPrmtop: return "an Amber prmtop topology";
+    case FileKind::kTpr: return "a GROMACS run input (TPR)";
+    case FileKind::kGromacsTopology: return "a GROMACS topology";
     case FileKind::kDcd: return "a DCD trajectory";
     case FileKind::kNetcdf: return "a NetCDF file";
     case FileKind::kHdf5: return "an HDF5 file";

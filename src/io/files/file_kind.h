@@ -20,6 +20,8 @@ enum class FileKind {
   kMol2,
   kPsf,
   kPrmtop,
+  kTpr,  ///< GROMACS' run input
+  kGromacsTopology,
   kDcd,
   kNetcdf,
   kHdf5,
@@ -40,6 +42,10 @@ FileKind recognise(std::string_view head);
 /// As recognise(), by the file's first bytes as they stand; kUnknownText for what is no regular file, such as a pipe,
 /// whose bytes can be read once.
 FileKind kind_of_file(const std::string& path);
+
+/// What GROMACS' users do instead of giving a run input or topology, as the end of a message.
+inline constexpr const char* kGromacsRemedy =
+    "`gmx editconf -f RUN.tpr -mead STATE.pqr` writes a PQR with the charges of a run input; give that";
 
 /// With its article, for "this looks like ...": "an OpenDX map".
 std::string describe(FileKind kind);

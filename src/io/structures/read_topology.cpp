@@ -208,8 +208,10 @@ Topology read_atoms(const std::string& path, MoleculeBuilder* builder) {
   FileContent file = read_input(path, [&](std::string_view head) {
     kind = recognise(head);
     if (kind != FileKind::kPsf && kind != FileKind::kPrmtop)
-      throw InputError(path + ": this looks like " + describe(kind) +
-                       ", which is not read as a topology; give a PSF or an Amber prmtop");
+      throw InputError(path + ": this looks like " + describe(kind) + ", which is not read as a topology; " +
+                       (kind == FileKind::kTpr || kind == FileKind::kGromacsTopology
+                            ? kGromacsRemedy
+                            : "give a PSF or an Amber prmtop"));
   });
   unify_line_ends(file.content);
   topology.sha256 = file.sha256;

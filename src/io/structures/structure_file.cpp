@@ -27,6 +27,8 @@ namespace {
     case FileKind::kPrmtop:
       remedy = "give the structure or restart of its atoms, and this as " + option("topology");
       break;
+    case FileKind::kTpr:
+    case FileKind::kGromacsTopology: remedy = kGromacsRemedy; break;
     case FileKind::kDcd:
       remedy =
           "the command line's trajectory takes a topology and it; otherwise load both in VMD and use espdiff there, or "

@@ -70,6 +70,10 @@ TEST_CASE("read_topology: cut and wrong files are refused with the line") {
         ":5: the number of atoms is 10000000; 1 to 5000000 were expected");
   CHECK(refused("k.prmtop", replaced(prmtop, "(5E16.8)\n  2.9", "(5E9223372036854775807.8)\n  2.9"))
             .find("%FLAG CHARGE has 1 values for 2 atoms") != std::string::npos);
+  CHECK(refused("k.top", "; by hand\n[ moleculetype ]\nProtein 3\n") ==
+        ": this looks like a GROMACS topology, which is not read as a topology; `gmx editconf -f RUN.tpr -mead "
+        "STATE.pqr` "
+        "writes a PQR with the charges of a run input; give that");
   CHECK(refused("f.dx", "object 1 class gridpositions counts 1 1 1\n").find("not read as a topology") !=
         std::string::npos);
 }
