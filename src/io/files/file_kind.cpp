@@ -143,8 +143,7 @@ FileKind recognise(std::string_view head) {
     if (starts_with(line, "#")) continue;
     const FileKind kind = recognise_first_line(line);
     if (first && kind != FileKind::kUnknownText) return kind;
-    const std::string lower = lower_case(line);
-    if (starts_with(lower, "[ moleculetype ]") || starts_with(lower, "[ defaults ]")) return FileKind::kGromacsTopology;
+    if (starts_with(line, "[ ") && trimmed(line).back() == ']') return FileKind::kGromacsTopology;
     // A title or the like may stand above the atoms.
     if (is_atom_line(line)) return FileKind::kAtomRecords;
     first = false;
