@@ -23,6 +23,12 @@ std::string printed_by(const std::vector<std::string>& words) {
   return result.output;
 }
 
+bool lacks_numpy(const std::string& printed) {
+  if (printed != "no NumPy\n") return false;
+  MESSAGE("SKIPPED: no NumPy; install it (Debian: python3-numpy)");
+  return true;
+}
+
 }  // namespace
 
 TEST_CASE("words_to_start: packages that a program of Python does not use are not loaded") {
@@ -85,10 +91,7 @@ for call in (lambda: np.cross([1.0], [2.0]), lambda: np.linalg.norm(flat, 7, 9),
 )");
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   const std::string by_itself = printed_by({program});
-  if (by_itself == "no NumPy\n") {
-    MESSAGE("SKIPPED: no NumPy; install it (Debian: python3-numpy)");
-    return;
-  }
+  if (lacks_numpy(by_itself)) return;
   CHECK(by_itself.size() > 100000);
   espdiff::ProgramCall call;
   call.words = words_to_start(program);
@@ -114,10 +117,7 @@ print([name for name in names if "__file__" not in vars(sys.modules[name])])
 )");
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   const std::string by_itself = printed_by({program});
-  if (by_itself == "no NumPy\n") {
-    MESSAGE("SKIPPED: no NumPy; install it (Debian: python3-numpy)");
-    return;
-  }
+  if (lacks_numpy(by_itself)) return;
   CHECK(by_itself.find("5 [ 3.+0.j -1.+0.j] [1 --]\n7.0 a%20b\n[]\n") == 0);
   CHECK(by_itself == printed_by(words_to_start(program)));
   espdiff::ProgramCall call;

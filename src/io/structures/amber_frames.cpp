@@ -2,7 +2,6 @@
 #include "io/structures/amber_frames.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -16,7 +15,7 @@
 namespace espdiff {
 namespace {
 
-constexpr std::size_t kColumn = 12;  // of a column
+constexpr std::size_t kColumn = 12;  // characters
 
 /// Edges of 1 A and less stand for none.
 std::optional<UnitCell> cell_of(const std::vector<double>& edges, const std::vector<double>& angles) {
