@@ -60,6 +60,36 @@ TEST_CASE("read_gro: frames are models, each with its cell") {
   CHECK(structure_of("a.gro", kTwo.substr(0, kTwo.find("   3.0")) + " 0 0 0\n").size() == 2);
 }
 
+TEST_CASE("read_gro: a bond leads on where numbers fall, and a number that is there already gets an insertion code") {
+  const auto at = [](int residue, const char* residue_name, const char* name, double x) {
+    return atom(residue, residue_name, name, 1, x);
+  };
+  // ALA 1 and SER 2 before LYS 1; twice SER 82, which only the second N tells apart
+  const std::string bonded = at(1, "ALA", "N", 0) + at(1, "ALA", "C", 0.1) + at(2, "SER", "N", 0.23) +
+                             at(2, "SER", "C", 0.3) + at(1, "LYS", "N", 0.43) + at(1, "LYS", "C", 0.5);
+  const std::string twice = at(82, "SER", "N", 0.63) + at(82, "SER", "CA", 0.7) + at(82, "SER", "N", 0.9) +
+                            at(82, "SER", "CA", 1.0) + at(82, "LEU", "N", 1.2);
+  const Molecule m = structure_of("a.gro", "one\n11\n" + bonded + twice + " 9 9 9\n");
+  REQUIRE(m.residues.size() == 6);
+  const auto label = [&](std::size_t r) {
+    return m.residues[r].chain + std::to_string(m.residues[r].number) + m.residues[r].insertion_code;
+  };
+  CHECK(label(0) == "A1 ");
+  CHECK(label(1) == "A2 ");
+  CHECK(label(2) == "A1A");
+  CHECK(label(3) == "A82 ");
+  CHECK(label(4) == "A82A");
+  CHECK(label(5) == "A82B");
+  CHECK(m.atoms[8].residue == 4);
+  const Molecule apart = structure_of("a.gro", "one\n8\n" + bonded.substr(0, bonded.find(at(1, "LYS", "N", 0.43))) +
+                                                   at(1, "LYS", "N", 0.9) + at(1, "LYS", "C", 1.0) +
+                                                   at(1, "LIG", "N", 1.2) + at(1, "LIG", "N", 1.3) + " 9 9 9\n");
+  REQUIRE(apart.residues.size() == 4);
+  CHECK(apart.residues[2].chain == "B");
+  CHECK(apart.residues[2].insertion_code == ' ');
+  CHECK(apart.residues[3].insertion_code == 'A');  // with all of its atoms of one name
+}
+
 TEST_CASE("read_gro: where residues other than water start over, another chain begins") {
   const std::string atoms = atom(5, "ALA", "CA", 1, 0.1) + atom(6, "GLY", "CA", 2, 0.5) + atom(5, "ALA", "CA", 3, 1.1) +
                             atom(2, "SOL", "OW", 4, 2) + atom(7, "NA", "NA", 5, 2.5);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -25,7 +26,8 @@ struct GroAtom {
   std::string_view text;
   long line = 0;
   int residue_number = 0;
-  std::size_t chain = 0;  ///< see set_chains()
+  std::size_t chain = 0;  ///< this and the next: see set_chains()
+  char insertion_code = ' ';
 
   std::string_view residue_name() const { return trimmed(text.substr(kWidth, kWidth)); }
   std::string_view name() const { return trimmed(text.substr(2 * kWidth, kWidth)); }
@@ -35,27 +37,13 @@ struct GroModel {
   std::vector<GroAtom> atoms;
   std::optional<UnitCell> cell;
   std::size_t n_chains = 0;
+  bool has_fall = false;  ///< numbers fall within a chain
 };
 
-/// The chains, which the format does not name: where the numbers of residues other than water start over, another one
-/// begins. After 99,999 they start over too.
-void set_chains(GroModel& model) {
-  constexpr int kLargest = 99999;
-  std::size_t chain = 0;
-  int before = 0;
-  for (GroAtom& atom : model.atoms) {
-    atom.chain = chain;
-    if (is_water_name(atom.residue_name())) continue;
-    if (atom.residue_number < before && before != kLargest) atom.chain = ++chain;
-    before = atom.residue_number;
-  }
-  model.n_chains = chain + 1;
-}
-
-/// "A", "B", ...; nothing where there is one chain only.
+/// "A", "B", ...; nothing where there is one chain only, with rising numbers.
 std::string chain_name(const GroModel& model, std::size_t chain) {
   static const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
-  if (model.n_chains == 1) return {};
+  if (model.n_chains == 1 && !model.has_fall) return {};
   return chain < letters.size() ? letters.substr(chain, 1) : std::to_string(chain + 1);
 }
 
@@ -87,6 +75,76 @@ Vec3d read_position(const std::string& path, const GroAtom& atom) {
     position[static_cast<int>(axis)] = kAngstromPerNm * number;
   }
   return position;
+}
+
+/// The atom of a name among those of a residue; null if there is none.
+const GroAtom* atom_named(const std::vector<GroAtom>& atoms, std::size_t begin, std::size_t end,
+                          std::string_view name) {
+  const auto first = atoms.begin() + static_cast<std::ptrdiff_t>(begin),
+             last = atoms.begin() + static_cast<std::ptrdiff_t>(end);
+  const auto found = std::find_if(first, last, [&](const GroAtom& atom) { return atom.name() == name; });
+  return found == last ? nullptr : &*found;
+}
+
+/// The end of the residue that begins at an atom. Two residues of one name and number, such as 82 and 82A of an
+/// antibody, follow each other without a mark: the second begins with its N.
+std::size_t residue_end(const std::vector<GroAtom>& atoms, std::size_t begin) {
+  std::size_t end = begin + 1;
+  for (; end < atoms.size() && atoms[end].residue_number == atoms[begin].residue_number &&
+         atoms[end].residue_name() == atoms[begin].residue_name();
+       ++end) {
+    if (atoms[end].name() == "N" && atom_named(atoms, begin, end, "N") != nullptr &&
+        atom_named(atoms, begin, end, "CA") != nullptr)
+      break;
+  }
+  return end;
+}
+
+/// Whether a chain goes on from the residue at `before` to that at `begin`.
+bool are_bonded(const std::string& path, const std::vector<GroAtom>& atoms, std::size_t before, std::size_t begin,
+                std::size_t end) {
+  constexpr double kLongest_A = 2.2;
+  for (const auto& [last, first] : {std::pair("C", "N"), {"O3'", "P"}}) {
+    const GroAtom *const from = atom_named(atoms, before, begin, last), *const to =
+                                                                            atom_named(atoms, begin, end, first);
+    if (from != nullptr && to != nullptr && norm(read_position(path, *from) - read_position(path, *to)) < kLongest_A)
+      return true;
+  }
+  return false;
+}
+
+/// The chains, which the format does not name: where the numbers of residues other than water start over and no bond
+/// leads on, another one begins. After 99,999 they start over too. Nor does it have insertion codes: a number that the
+/// chain has already gets one.
+void set_chains(const std::string& path, GroModel& model) {
+  constexpr int kLargest = 99999, kMostCodes = 26;
+  std::vector<GroAtom>& atoms = model.atoms;
+  std::size_t chain = 0, before = 0;
+  std::map<int, int> n_of_number;  // residues of the chain
+  int number_before = 0;
+  for (std::size_t begin = 0, end = 0; begin < atoms.size(); begin = end) {
+    end = residue_end(atoms, begin);
+    const int number = atoms[begin].residue_number;
+    int n_before = 0;
+    if (!is_water_name(atoms[begin].residue_name())) {
+      const bool falls = number < number_before && number_before != kLargest;
+      const bool is_new = (falls && !are_bonded(path, atoms, before, begin, end)) || n_of_number[number] > kMostCodes;
+      if (is_new) {
+        ++chain;
+        n_of_number.clear();
+      } else if (falls) {
+        model.has_fall = true;
+      }
+      n_before = n_of_number[number]++;
+      number_before = number;
+      before = begin;
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      atoms[i].chain = chain;
+      if (n_before > 0) atoms[i].insertion_code = static_cast<char>('A' + n_before - 1);
+    }
+  }
+  model.n_chains = chain + 1;
 }
 
 /// Edges in the order of the format: the diagonal, then a's y and z, b's x and z, c's x and y, which may be left out.
@@ -126,8 +184,8 @@ class GroModels : public StructureModels {
   long line_of(int number, const Residue& residue) const override {
     const GroModel& model = at(number);
     for (const GroAtom& atom : model.atoms) {
-      if (atom.residue_number == residue.number && atom.residue_name() == residue.name &&
-          chain_name(model, atom.chain) == residue.chain)
+      if (atom.residue_number == residue.number && atom.insertion_code == residue.insertion_code &&
+          atom.residue_name() == residue.name && chain_name(model, atom.chain) == residue.chain)
         return atom.line;
     }
     return 0;
@@ -147,6 +205,7 @@ class GroModels : public StructureModels {
       entry.name = atom.name();
       entry.chain = chain_name(model, atom.chain);
       entry.residue_number = atom.residue_number;
+      entry.insertion_code = atom.insertion_code;
       entry.position = read_position(file_.path, atom);
       entry.line = atom.line;
       builder.add(entry);
@@ -185,7 +244,7 @@ class GroModels : public StructureModels {
     require_line(n);
     const std::string_view box = trimmed(lines.next());
     model.cell = read_box(file_.path, box, lines.number);
-    set_chains(model);
+    set_chains(file_.path, model);
     return model;
   }
 
