@@ -25,7 +25,8 @@ FileKind recognise_binary(std::string_view head) {
   if (head.size() > 12 && (head.substr(4, 4) == "CORD" || head.substr(8, 4) == "CORD")) return FileKind::kDcd;
   if (starts_with(head, "CDF\x01") || starts_with(head, "CDF\x02")) return FileKind::kNetcdf;
   if (starts_with(head, "\x89HDF")) return FileKind::kHdf5;
-  if (starts_with(head, std::string_view("\0\0\0", 3)) && head.substr(4, 12).find("VERSION ") != std::string_view::npos)
+  constexpr std::size_t kTprMarkAt = 8;  // behind two lengths
+  if (head.size() > kTprMarkAt && head[0] == '\0' && starts_with(head.substr(kTprMarkAt), "VERSION "))
     return FileKind::kTpr;
   const std::string_view front = head.substr(0, 512);
   const bool is_message_pack = !front.empty() && (static_cast<unsigned char>(front[0]) & 0xf0U) == 0x80;

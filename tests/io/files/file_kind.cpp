@@ -25,6 +25,7 @@ TEST_CASE("file_kind: the marks of each format") {
   CHECK(recognise("PSF CMAP\n\n") == FileKind::kPsf);
   CHECK(recognise("%VERSION  VERSION_STAMP = V0001.000") == FileKind::kPrmtop);
   CHECK(recognise(std::string("\0\0\0\x0e\0\0\0\x0dVERSION 2019\0\0", 22)) == FileKind::kTpr);
+  CHECK(recognise(std::string(3, '\0')) == FileKind::kUnknownBinary);
   CHECK(recognise("; topol.top\n#include \"oplsaa.ff/forcefield.itp\"\n[ moleculetype ]\nProtein 3\n") ==
         FileKind::kGromacsTopology);
   CHECK(recognise("made by LEaP\n    2\n   1.0000000   2.0000000  -3.0000000   4.0000000   5.0000000   6.0000000\n") ==
