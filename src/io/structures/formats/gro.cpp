@@ -100,7 +100,7 @@ std::size_t residue_end(const std::vector<GroAtom>& atoms, std::size_t begin) {
   return end;
 }
 
-/// Whether a chain goes on from the residue at `before` to that at `begin`.
+/// Whether a bond leads from the residue at `before` to that at `begin`.
 bool are_bonded(const std::string& path, const std::vector<GroAtom>& atoms, std::size_t before, std::size_t begin,
                 std::size_t end) {
   constexpr double kLongest_A = 2.2;
