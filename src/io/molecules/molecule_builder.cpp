@@ -27,6 +27,11 @@ std::string element_of(const AtomEntry& entry) {
 
 }  // namespace
 
+std::string chain_letter(std::size_t chain) {
+  static const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
+  return chain < letters.size() ? letters.substr(chain, 1) : std::to_string(chain + 1);
+}
+
 bool is_standard_residue(const std::string& residue_name) {
   static constexpr std::array<const char*, 60> kNames = {
       "ALA", "ARG", "ASN", "ASP", "CYS", "GLN", "GLU", "GLY", "HIS", "ILE", "LEU", "LYS", "MET", "PHE", "PRO",

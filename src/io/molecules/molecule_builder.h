@@ -35,6 +35,9 @@ struct AtomEntry {
   long line = 0;  ///< for messages; 0 when the format has no lines
 };
 
+/// Of chains that a format does not name: "A", "B", ..., "a", ..., "0", ..., then numbers. @param chain from 0
+std::string chain_letter(std::size_t chain);
+
 /// Whether this is one of the twenty amino acids (also in Amber's and CHARMM's protonation states) or a nucleotide.
 bool is_standard_residue(const std::string& residue_name);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -147,28 +148,64 @@ std::vector<float> numbers_of(const std::string& path, const std::string& flag, 
   return numbers;
 }
 
-/// Adds the atoms by their residues: labels, and the number of the first atom of each, from 1.
-void add_residues(const Topology& topology, std::map<std::string, Section>& sections, MoleculeBuilder& builder) {
+/// The atoms of a prmtop's residue: begin .. end-1.
+struct PrmtopResidue {
+  std::string_view name;
+  std::size_t begin = 0, end = 0;
+};
+
+/// By labels, and the number of the first atom of each, from 1.
+std::vector<PrmtopResidue> prmtop_residues(const Topology& topology, std::map<std::string, Section>& sections) {
   const Section &labels = sections["RESIDUE_LABEL"], &firsts = sections["RESIDUE_POINTER"];
-  const auto first_of = [&](std::size_t residue) {
+  std::vector<PrmtopResidue> residues;
+  for (const std::string_view field : firsts.fields) {
     long long first = 0;
-    if (residue >= firsts.fields.size() || !parse_integer(firsts.fields[residue], first)) return std::size_t{0};
-    return static_cast<std::size_t>(std::max(first, 0LL));
-  };
-  AtomEntry entry;
-  std::size_t residue = 0;  // the next one
-  for (std::size_t i = 0; i < topology.names.size(); ++i) {
-    if (i + 1 == first_of(residue)) {
-      if (residue >= labels.fields.size())
-        throw FormatError(topology.path, labels.line, "%FLAG RESIDUE_LABEL has fewer residues than RESIDUE_POINTER");
-      entry.residue_name = labels.fields[residue];
-      entry.residue_number = static_cast<int>(++residue);
-    }
-    if (residue == 0)
+    const std::size_t least = residues.empty() ? 1 : residues.back().begin + 2;
+    if (field.empty()) break;
+    if (!parse_integer(field, first) || first < static_cast<long long>(least) || (residues.empty() && first != 1) ||
+        first > static_cast<long long>(topology.names.size()))
       throw FormatError(topology.path, firsts.line,
-                        "the prmtop's residues do not begin with its first atom (%FLAG RESIDUE_POINTER)");
-    entry.name = topology.names[i];
-    builder.add(entry);
+                        "%FLAG RESIDUE_POINTER: value " + std::to_string(residues.size() + 1) + " is " +
+                            in_quotes(field) + "; the number of the residue's first atom was expected");
+    if (residues.size() == labels.fields.size())
+      throw FormatError(topology.path, labels.line, "%FLAG RESIDUE_LABEL has fewer residues than RESIDUE_POINTER");
+    if (!residues.empty()) residues.back().end = static_cast<std::size_t>(first - 1);
+    residues.push_back({labels.fields[residues.size()], static_cast<std::size_t>(first - 1), topology.names.size()});
+  }
+  if (residues.empty())
+    throw FormatError(topology.path, firsts.line, "the prmtop has no residues (%FLAG RESIDUE_POINTER)");
+  return residues;
+}
+
+/// Adds the atoms by their residues. A prmtop names no chains: where several end, by OXT or the hydrogen of a 3' end,
+/// and another one follows, they are A, B, ...
+void add_residues(const Topology& topology, std::map<std::string, Section>& sections, MoleculeBuilder& builder) {
+  const std::vector<PrmtopResidue> residues = prmtop_residues(topology, sections);
+  const auto has_one_of = [&](const PrmtopResidue& residue, std::initializer_list<const char*> names) {
+    const auto begin = topology.names.begin() + static_cast<std::ptrdiff_t>(residue.begin),
+               end = topology.names.begin() + static_cast<std::ptrdiff_t>(residue.end);
+    return std::find_first_of(begin, end, names.begin(), names.end()) != end;
+  };
+  std::vector<std::size_t> chain_of;
+  bool has_ended = false;
+  for (const PrmtopResidue& residue : residues) {
+    std::size_t chain = chain_of.empty() ? 0 : chain_of.back();
+    if (has_ended && has_one_of(residue, {"CA", "C4'"})) {
+      ++chain;
+      has_ended = false;
+    }
+    has_ended = has_ended || has_one_of(residue, {"OXT", "HO3'", "H3T"});
+    chain_of.push_back(chain);
+  }
+  AtomEntry entry;
+  for (std::size_t r = 0; r < residues.size(); ++r) {
+    entry.residue_name = residues[r].name;
+    entry.residue_number = static_cast<int>(r + 1);
+    entry.chain = chain_of.back() == 0 ? std::string() : chain_letter(chain_of[r]);
+    for (std::size_t i = residues[r].begin; i < residues[r].end; ++i) {
+      entry.name = topology.names[i];
+      builder.add(entry);
+    }
   }
 }
 

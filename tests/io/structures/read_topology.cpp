@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "io/files/file_kind.h"
 #include "io/structures/structure_file.h"
 #include "io/structures/structure_text.h"
@@ -150,10 +151,39 @@ TEST_CASE("read_topology_atoms: a prmtop's residues, and radii by element where 
     return message_of([&] { read_topology_atoms(path); }).substr(path.size());
   };
   CHECK(refused(replaced(prmtop, "       1       2\n", "       2       3\n")) ==
-        ":20: the prmtop's residues do not begin with its first atom (%FLAG RESIDUE_POINTER)");
+        ":20: %FLAG RESIDUE_POINTER: value 1 is '2'; the number of the residue's first atom was expected");
+  CHECK(refused(replaced(prmtop, "       1       2\n", "       1       3\n")).find("value 2 is '3'; the number of") !=
+        std::string::npos);
+  CHECK(refused(replaced(prmtop, "       1       2\n", "       1       1\n")).find("value 2 is '1'; the number of") !=
+        std::string::npos);
   CHECK(refused(replaced(prmtop, "ALA LIG ", "ALA ")).find("has fewer residues than RESIDUE_POINTER") !=
         std::string::npos);
-  CHECK(refused(kPrmtop).find("do not begin with its first atom") != std::string::npos);
+  CHECK(refused(kPrmtop).find("the prmtop has no residues (%FLAG RESIDUE_POINTER)") != std::string::npos);
+}
+
+TEST_CASE("read_topology_atoms: chains of a prmtop end with OXT, where another one follows") {
+  const ScratchFolder folder;
+  const auto chains = [&](const std::string& names) {
+    const std::size_t n = names.size() / 4;
+    std::string text = "%VERSION  made\n%FLAG POINTERS\n%FORMAT(10I8)\n" + formatted("%8d", static_cast<int>(n)) +
+                       "\n%FLAG ATOM_NAME\n%FORMAT(20a4)\n" + names + "\n%FLAG CHARGE\n%FORMAT(5E16.8)\n";
+    for (std::size_t i = 0; i < n; ++i) text += "  0.00000000E+00\n";
+    text += "%FLAG RESIDUE_LABEL\n%FORMAT(20a4)\n";
+    std::string labels, firsts;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i > 0 && names.substr(4 * i, 4) == "OXT ") continue;  // of the residue before
+      labels += "ALA ";
+      firsts += formatted("%8d", static_cast<int>(i + 1));
+    }
+    text += labels + "\n%FLAG RESIDUE_POINTER\n%FORMAT(10I8)\n" + firsts + "\n";
+    std::string all;
+    for (const Residue& residue : read_topology_atoms(folder.write("a.prmtop", text)).residues)
+      all += residue.chain.empty() ? "-" : residue.chain;
+    return all;
+  };
+  CHECK(chains("CA  CA  OXT CA  CA  OXT C1  ") == "AABBB");
+  CHECK(chains("CA  CA  OXT C1  O   ") == "----");
+  CHECK(chains("CA  CA  CA  ") == "---");
 }
 
 TEST_CASE("read_topology_atoms: the solvated DHFR's prmtop and restart give its PDB's atoms") {

@@ -42,9 +42,7 @@ struct GroModel {
 
 /// "A", "B", ...; nothing where there is one chain only, with rising numbers.
 std::string chain_name(const GroModel& model, std::size_t chain) {
-  static const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
-  if (model.n_chains == 1 && !model.has_fall) return {};
-  return chain < letters.size() ? letters.substr(chain, 1) : std::to_string(chain + 1);
+  return model.n_chains == 1 && !model.has_fall ? std::string() : chain_letter(chain);
 }
 
 GroAtom read_names(const std::string& path, std::string_view text, long line) {
