@@ -47,7 +47,7 @@ class AmberNetcdf : public CoordinateFile {
   int held_ = -1;  // the frame in frame_, -1 for none
 };
 
-/// Coordinates in one of these formats, as they were read.
+/// Coordinates in one of these formats, as they were read. @throws as the two classes
 std::unique_ptr<CoordinateFile> amber_frames(FileContent file);
 
 }  // namespace espdiff
