@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -77,6 +76,9 @@ void read_psf(const std::string& text, Topology& topology, MoleculeBuilder* buil
   throw FormatError(topology.path, 0, "the PSF has no !NATOM section; write it again");
 }
 
+/// The section of a prmtop's bonds without hydrogen: of each thrice the index of either atom, and a type.
+constexpr const char* kHeavyBonds = "BONDS_WITHOUT_HYDROGEN";
+
 /// A section of a prmtop: the fields of its lines, which have a fixed width.
 struct Section {
   long line = 0;
@@ -97,7 +99,8 @@ std::size_t field_width(std::string_view format) {
 
 /// The sections that are read.
 std::map<std::string, Section> prmtop_sections(const std::string& text) {
-  constexpr const char* kRead[] = {"POINTERS", "ATOM_NAME", "CHARGE", "RADII", "RESIDUE_LABEL", "RESIDUE_POINTER"};
+  constexpr const char* kRead[] = {"POINTERS", "ATOM_NAME", "CHARGE", "RADII", "RESIDUE_LABEL", "RESIDUE_POINTER",
+                                   kHeavyBonds};
   std::map<std::string, Section> sections;
   Section* section = nullptr;
   std::size_t width = 0;
@@ -119,8 +122,8 @@ std::map<std::string, Section> prmtop_sections(const std::string& text) {
     } else if (line.substr(0, 1) != "%" && section != nullptr && width > 0) {
       std::string_view rest = line;
       while (!rest.empty() && (rest.back() == '\r' || rest.back() == '\n')) rest.remove_suffix(1);
-      // More atoms than kMostAtoms are refused later; until then they take no memory.
-      for (std::size_t at = 0; at < rest.size() && section->fields.size() <= kMostAtoms; at += width)
+      // More atoms than kMostAtoms are refused later; until then they take no memory. Bonds are about as many, of three.
+      for (std::size_t at = 0; at < rest.size() && section->fields.size() <= 3 * kMostAtoms; at += width)
         section->fields.push_back(trimmed(rest.substr(at, width)));
     }
   }
@@ -177,26 +180,60 @@ std::vector<PrmtopResidue> prmtop_residues(const Topology& topology, std::map<st
   return residues;
 }
 
-/// Adds the atoms by their residues. A prmtop names no chains: where several end, by OXT or the hydrogen of a 3' end,
-/// and another one follows, they are A, B, ...
-void add_residues(const Topology& topology, std::map<std::string, Section>& sections, MoleculeBuilder& builder) {
-  const std::vector<PrmtopResidue> residues = prmtop_residues(topology, sections);
-  const auto has_one_of = [&](const PrmtopResidue& residue, std::initializer_list<const char*> names) {
+/// [residue] whether a bond leads to it from the residue before.
+std::vector<bool> bonded_to_previous(const Topology& topology, const Section& bonds,
+                                     const std::vector<PrmtopResidue>& residues) {
+  std::vector<std::size_t> residue_of(topology.names.size());
+  for (std::size_t r = 0; r < residues.size(); ++r)
+    std::fill(residue_of.begin() + static_cast<std::ptrdiff_t>(residues[r].begin),
+              residue_of.begin() + static_cast<std::ptrdiff_t>(residues[r].end), r);
+  const auto residue_at = [&](std::size_t i) {
+    long long value = 0;
+    if (!parse_integer(bonds.fields[i], value) || value < 0 ||
+        value / 3 >= static_cast<long long>(residue_of.size()))
+      throw FormatError(topology.path, bonds.line,
+                        std::string("%FLAG ") + kHeavyBonds + ": value " + std::to_string(i + 1) + " is " +
+                            in_quotes(bonds.fields[i]) + "; thrice the index of an atom was expected");
+    return residue_of[static_cast<std::size_t>(value / 3)];
+  };
+  std::vector<bool> bonded(residues.size());
+  for (std::size_t i = 0; i + 2 < bonds.fields.size() && !bonds.fields[i].empty(); i += 3) {
+    const std::size_t first = residue_at(i), second = residue_at(i + 1);
+    if (std::max(first, second) - std::min(first, second) == 1) bonded[std::max(first, second)] = true;
+  }
+  return bonded;
+}
+
+/// [residue] the chain, which a prmtop does not name: one begins where a peptide or nucleic acid does that no bond joins
+/// to the residue before. What is neither, such as ions and water, belongs to the chain before it.
+std::vector<std::size_t> prmtop_chains(const Topology& topology, const Section& bonds,
+                                       const std::vector<PrmtopResidue>& residues) {
+  std::vector<std::size_t> chain_of(residues.size());
+  if (bonds.fields.empty()) return chain_of;
+  const auto has = [&](const PrmtopResidue& residue, const char* name) {
     const auto begin = topology.names.begin() + static_cast<std::ptrdiff_t>(residue.begin),
                end = topology.names.begin() + static_cast<std::ptrdiff_t>(residue.end);
-    return std::find_first_of(begin, end, names.begin(), names.end()) != end;
+    return std::find(begin, end, name) != end;
   };
-  std::vector<std::size_t> chain_of;
-  bool has_ended = false;
-  for (const PrmtopResidue& residue : residues) {
-    std::size_t chain = chain_of.empty() ? 0 : chain_of.back();
-    if (has_ended && has_one_of(residue, {"CA", "C4'"})) {
-      ++chain;
-      has_ended = false;
-    }
-    has_ended = has_ended || has_one_of(residue, {"OXT", "HO3'", "H3T"});
-    chain_of.push_back(chain);
+  const std::vector<bool> bonded = bonded_to_previous(topology, bonds, residues);
+  std::size_t n_polymers = 0;
+  for (std::size_t begin = 0, end = 0; begin < residues.size(); begin = end) {
+    bool is_polymer = false;
+    do {
+      const PrmtopResidue& residue = residues[end];
+      is_polymer = is_polymer || (has(residue, "CA") && has(residue, "C")) || has(residue, "C4'");
+    } while (++end < residues.size() && bonded[end]);
+    if (is_polymer) ++n_polymers;
+    std::fill(chain_of.begin() + static_cast<std::ptrdiff_t>(begin),
+              chain_of.begin() + static_cast<std::ptrdiff_t>(end), n_polymers == 0 ? 0 : n_polymers - 1);
   }
+  return chain_of;
+}
+
+/// Adds the atoms by their residues. Where there are several chains, they are A, B, ...
+void add_residues(const Topology& topology, std::map<std::string, Section>& sections, MoleculeBuilder& builder) {
+  const std::vector<PrmtopResidue> residues = prmtop_residues(topology, sections);
+  const std::vector<std::size_t> chain_of = prmtop_chains(topology, sections[kHeavyBonds], residues);
   AtomEntry entry;
   for (std::size_t r = 0; r < residues.size(); ++r) {
     entry.residue_name = residues[r].name;

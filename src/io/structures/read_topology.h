@@ -22,7 +22,8 @@ struct Topology {
 Topology read_topology(const std::string& path);
 
 /// The atoms of a PSF or prmtop, all at the origin, with residues and charges; radii are a prmtop's, otherwise by
-/// element. A prmtop's residues have numbers from 1, and chains where several end (A, B, ...).
+/// element. A prmtop's residues have numbers from 1, and are chains A, B, ... where no bonds join its peptides or
+/// nucleic acids.
 /// @throws as read_topology()
 Molecule read_topology_atoms(const std::string& path);
 

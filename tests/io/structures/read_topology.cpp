@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "base/error.h"
 #include "base/formatted.h"
@@ -161,29 +162,47 @@ TEST_CASE("read_topology_atoms: a prmtop's residues, and radii by element where 
   CHECK(refused(kPrmtop).find("the prmtop has no residues (%FLAG RESIDUE_POINTER)") != std::string::npos);
 }
 
-TEST_CASE("read_topology_atoms: chains of a prmtop end with OXT, where another one follows") {
+TEST_CASE("read_topology_atoms: chains of a prmtop by its bonds, where several peptides or nucleic acids are there") {
   const ScratchFolder folder;
-  const auto chains = [&](const std::string& names) {
+  const auto section = [](const std::string& flag, const char* format, const std::string& values) {
+    return "%FLAG " + flag + "\n%FORMAT(" + format + ")\n" + values + "\n";
+  };
+  // Two atoms a residue; bonds are pairs of atoms, from 0.
+  const auto prmtop = [&](const std::string& names, const std::vector<std::array<int, 2>>& bonds) {
     const std::size_t n = names.size() / 4;
-    std::string text = "%VERSION  made\n%FLAG POINTERS\n%FORMAT(10I8)\n" + formatted("%8d", static_cast<int>(n)) +
-                       "\n%FLAG ATOM_NAME\n%FORMAT(20a4)\n" + names + "\n%FLAG CHARGE\n%FORMAT(5E16.8)\n";
-    for (std::size_t i = 0; i < n; ++i) text += "  0.00000000E+00\n";
-    text += "%FLAG RESIDUE_LABEL\n%FORMAT(20a4)\n";
-    std::string labels, firsts;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i > 0 && names.substr(4 * i, 4) == "OXT ") continue;  // of the residue before
+    std::string labels, firsts, charges, list;
+    for (std::size_t i = 0; i < n; ++i) charges += "  0.00000000E+00";
+    for (std::size_t i = 0; i < n; i += 2) {
       labels += "ALA ";
       firsts += formatted("%8d", static_cast<int>(i + 1));
     }
-    text += labels + "\n%FLAG RESIDUE_POINTER\n%FORMAT(10I8)\n" + firsts + "\n";
+    for (const auto& [a, b] : bonds) list += formatted("%8d%8d%8d", 3 * a, 3 * b, 1);
+    return "%VERSION  made\n" + section("POINTERS", "10I8", formatted("%8d", static_cast<int>(n))) +
+           section("ATOM_NAME", "20a4", names) + section("CHARGE", "5E16.8", charges) +
+           section("RESIDUE_LABEL", "20a4", labels) + section("RESIDUE_POINTER", "10I8", firsts) +
+           section("BONDS_WITHOUT_HYDROGEN", "10I8", list);
+  };
+  const auto chains = [&](const std::string& text) {
     std::string all;
     for (const Residue& residue : read_topology_atoms(folder.write("a.prmtop", text)).residues)
       all += residue.chain.empty() ? "-" : residue.chain;
     return all;
   };
-  CHECK(chains("CA  CA  OXT CA  CA  OXT C1  ") == "AABBB");
-  CHECK(chains("CA  CA  OXT C1  O   ") == "----");
-  CHECK(chains("CA  CA  CA  ") == "---");
+  const std::string two = "CA  C   CA  C   ", ligand = "C1  O1  ";
+  CHECK(chains(prmtop(two + two + ligand, {{1, 2}, {5, 6}, {0, 1}})) == "AABBB");
+  CHECK(chains(prmtop(two + two, {{1, 2}, {3, 4}, {6, 5}})) == "----");
+  CHECK(chains(prmtop(ligand + two + ligand, {{3, 4}})) == "----");
+  CHECK(chains(prmtop(ligand + two + "C4' O3' " + "C4' P   ", {{3, 4}, {7, 9}})) == "AAABB");
+  CHECK(chains(prmtop(two + two, {})) == "----");
+  // A bond to a residue that is not the next does not join: a disulfide between chains.
+  CHECK(chains(prmtop(two + two, {{1, 2}, {5, 6}, {0, 6}})) == "AABB");
+  const auto refused = [&](const std::array<int, 2>& bond) {
+    const std::string path = folder.write("b.prmtop", prmtop(two, {bond}));
+    return message_of([&] { read_topology_atoms(path); }).substr(path.size());
+  };
+  CHECK(refused({0, 4}) ==
+        ":16: %FLAG BONDS_WITHOUT_HYDROGEN: value 2 is '12'; thrice the index of an atom was expected");
+  CHECK(refused({-1, 1}).find("value 1 is '-3'") != std::string::npos);
 }
 
 TEST_CASE("read_topology_atoms: the solvated DHFR's prmtop and restart give its PDB's atoms") {
