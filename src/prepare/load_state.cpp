@@ -10,6 +10,7 @@
 #include "align/residue_charges.h"
 #include "base/error.h"
 #include "base/not_a_number.h"
+#include "base/text/joined_words.h"
 #include "io/molecules/elements.h"
 #include "io/molecules/select_atoms.h"
 #include "io/structures/read_topology.h"
@@ -103,6 +104,52 @@ std::string topology_option(StateRole role) {
   return role == StateRole::kOnly ? "topology" : std::string(to_string(role)) + "-topology";
 }
 
+/// Whether a topology lists as many atoms as a file has.
+bool lists_atoms_of(const std::string& topology, const StructureFile& file, int model) {
+  try {
+    return read_topology(topology).names.size() == file.n_atoms(model);
+  } catch (const Error&) {
+    return false;  // whoever means it gives it, and learns what is wrong with it
+  }
+}
+
+/// The topologies in a file's folder that list as many atoms, in alphabetical order.
+std::vector<std::string> topologies_around(const StructureFile& file, int model) {
+  namespace fs = std::filesystem;
+  constexpr std::size_t kMostLookedAt = 50;
+  const fs::path folder = fs::path(file.path()).parent_path();
+  std::vector<std::string> found;
+  std::error_code failed;
+  for (fs::directory_iterator at(folder.empty() ? fs::path(".") : folder, failed), end; !failed && at != end;
+       at.increment(failed)) {
+    fs::path name = at->path().filename();
+    const fs::path whole = name;
+    if (name.extension() == ".gz") name = name.stem();
+    for (const char* const ending : {".psf", ".prmtop", ".parm7", ".parm", ".top"}) {
+      if (name.extension() == ending && at->is_regular_file(failed)) found.push_back((folder / whole).string());
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.resize(std::min(found.size(), kMostLookedAt));
+  found.erase(std::remove_if(found.begin(), found.end(),
+                             [&](const std::string& path) { return !lists_atoms_of(path, file, model); }),
+              found.end());
+  return found;
+}
+
+/// Refuses coordinates whose atoms no topology of their name lists, and names those in the folder that may be meant.
+void advise_topologies_around(const StructureFile& file, int model, StateRole role) {
+  const std::vector<std::string> found = topologies_around(file, model);
+  if (found.empty()) return;
+  const std::string named = topology_option(role);
+  Message advice = found.size() == 1 ? Message(found[0] + " in its folder lists as many: ") + option(named, found[0])
+                                     : Message(joined_words(found) + " in its folder list as many: choose one by ") +
+                                           option(named, "FILE");
+  if (found.size() == 1) advice.set_next({"", {{named, found[0]}}});
+  throw InputError(file.path() + ": has the coordinates of " + std::to_string(file.n_atoms(model)) +
+                   " atoms without their names; " + advice);
+}
+
 /// The error of a state whose atoms a topology beside it lists.
 [[noreturn]] void advise_topology(const UnchargedError& error, const std::string& name, const std::string& topology,
                                   StateRole role) {
@@ -145,12 +192,8 @@ std::string topology_beside(const StructureFile& file, const StructureOptions& s
   for (const char* const ending : {".psf", ".prmtop", ".parm7"}) {
     const std::string path = fs::path(file.path()).replace_extension(ending).string();
     std::error_code missing;
-    if (path == file.path() || !fs::is_regular_file(path, missing)) continue;
-    try {
-      if (read_topology(path).names.size() == file.n_atoms(structure.model)) return path;
-    } catch (const Error&) {
-      // Whoever means it gives it, and learns what is wrong with it.
-    }
+    if (path != file.path() && fs::is_regular_file(path, missing) && lists_atoms_of(path, file, structure.model))
+      return path;
   }
   return {};
 }
@@ -215,6 +258,7 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
   structure.assembly = options.assembly;
   std::string topology = option_of_side(request.role, options, &SideInput::topology);
   if (topology.empty() && file.needs_atoms()) topology = topology_beside(file, structure);
+  if (topology.empty() && file.needs_atoms()) advise_topologies_around(file, structure.model, request.role);
   LoadedState state;
   if (!topology.empty()) {
     if (!structure.assembly.empty())

@@ -1,6 +1,8 @@
-// read_mol2.h: the atoms and bonds of a ligand in a Tripos MOL2 file.
+// read_mol2.h: the atoms and bonds of Tripos MOL2 files.
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,10 @@ struct Mol2Atom {
   Vec3d position;         ///< Angstrom
   double charge = 0;      ///< elementary charges; 0 where the file has none
   std::string type = {};  ///< Tripos' atom type: "C.ar"
+  bool has_charge = false;
+  int substructure = 1;                ///< its number and name: 1, "ALA1"
+  std::string substructure_name = {};  ///< empty where the file has none
+  long line = 0;
 };
 
 /// Two atoms of a file, by their places in Mol2File::atoms.
@@ -25,6 +31,16 @@ struct Mol2File {
   std::string path, content;
   std::vector<Mol2Atom> atoms;
 };
+
+/// One of a file's molecules.
+struct Mol2Molecule {
+  std::vector<Mol2Atom> atoms;
+  bool has_charges = true;            ///< unless the file says NO_CHARGES
+  std::map<int, std::string> chains;  ///< of substructures, where they are named
+};
+
+/// The molecules of a text after unify_line_ends(), up to `most`. @throws FormatError, InputError as read_mol2()
+std::vector<Mol2Molecule> mol2_molecules(const std::string& path, const std::string& text, std::size_t most);
 
 /// Reads the ATOM section of a file's first molecule.
 /// @throws IoError, InputError (not a MOL2 file, no atoms), FormatError (a line that cannot be read)

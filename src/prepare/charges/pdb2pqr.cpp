@@ -583,6 +583,17 @@ void take_knowledge(const Molecule& before, Molecule& after) {
   }
 }
 
+/// The molecule without hydrogens, so that PDB2PQR places them, and PROPKA's run, whatever their names. Protons of acids
+/// are in the residues' names.
+Molecule without_hydrogens(const Molecule& molecule, const std::string& reason, Preparation& done) {
+  Molecule bare = without_water(molecule, true);
+  if (bare.size() == molecule.size()) return bare;
+  done.notes.push_back("the file's " + std::to_string(molecule.size() - bare.size()) +
+                       " hydrogens were placed anew, since " + reason +
+                       (done.propka ? "; PROPKA decides the protonation" : ""));
+  return bare;
+}
+
 /// The molecule without the residues of some sources.
 Molecule without_sources(const Molecule& molecule, const std::vector<GroupSource>& sources,
                          const std::function<bool(GroupSource)>& drops) {
@@ -687,9 +698,11 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
     done.notes.emplace_back("force field AMBER, since PARSE has no DNA");
   Molecule before = without_water(molecule, !states.empty());
   require_all_atoms(before);
-  require_separate_atoms(before);
   const bool titrates = has_kind(before, ResidueKind::kAminoAcid), with_propka = states.empty() && titrates;
   done.propka = titrates;
+  const std::string misplaced = misplaced_hydrogens(before);
+  if (!misplaced.empty()) before = without_hydrogens(before, misplaced, done);
+  require_separate_atoms(before);
   std::vector<std::string> kept_states;
   for (std::size_t r = 0; r < states.size(); ++r) {
     if (!is_water_name(molecule.residues[r].name)) kept_states.push_back(states[r]);
@@ -726,13 +739,9 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   try {
     prepared.molecule = run_on(given);
   } catch (const UnknownAtomError& error) {
-    // PROPKA's run places all hydrogens anew, whatever their names. Protons of acids are in the residues' names.
-    const Molecule bare = without_water(given, true);
+    const Molecule bare = without_hydrogens(given, "PDB2PQR does not know " + error.atom, done);
     if (bare.size() == given.size()) throw;
     prepared.molecule = run_on(bare);
-    done.notes.push_back("the file's " + std::to_string(given.size() - bare.size()) +
-                         " hydrogens were placed anew, since PDB2PQR does not know " + error.atom +
-                         (done.propka ? "; PROPKA decides the protonation" : ""));
   }
   for (const ClosedChain& chain : closed_chains(given)) {
     const std::string& name = given.residues[chain.front()].chain;

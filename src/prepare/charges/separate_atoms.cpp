@@ -47,25 +47,49 @@ std::string named_atom(const Molecule& molecule, std::size_t atom) {
   return molecule.atoms[atom].name + " of " + residue_label(molecule.residues[residue]);
 }
 
+/// Atoms that lie too near to another one, and the first two of them.
+struct NearAtoms {
+  std::size_t n = 0;
+  std::pair<std::size_t, std::size_t> first;
+};
+
+/// @param counts whether an atom counts, and one that is near to it
+template <typename Counts>
+NearAtoms near_atoms(const Molecule& molecule, Counts counts) {
+  std::map<Cell, std::vector<std::size_t>> cells;
+  for (std::size_t i = 0; i < molecule.size(); ++i) {
+    if (counts(i)) cells[cell_at(molecule.positions[i])].push_back(i);
+  }
+  NearAtoms near;
+  for (std::size_t i = 0; i < molecule.size(); ++i) {
+    if (!counts(i)) continue;
+    const std::optional<std::size_t> other = near_atom(molecule, cells, i);
+    if (other && near.n++ == 0) near.first = {i, *other};
+  }
+  return near;
+}
+
+std::string in_words(const Molecule& molecule, const NearAtoms& near) {
+  return " atoms lie within 0.5 A of another (" + named_atom(molecule, near.first.first) + " and " +
+         named_atom(molecule, near.first.second) + ")";
+}
+
 }  // namespace
 
+std::string misplaced_hydrogens(const Molecule& molecule) {
+  const NearAtoms near = near_atoms(molecule, [](std::size_t) { return true; });
+  if (near.n < kLeastNear) return {};
+  const NearAtoms heavy = near_atoms(molecule, [&](std::size_t i) { return molecule.atoms[i].element != "H"; });
+  return heavy.n > 0 ? std::string() : std::to_string(near.n) + in_words(molecule, near);
+}
+
 void require_separate_atoms(const Molecule& molecule) {
-  std::map<Cell, std::vector<std::size_t>> cells;
-  for (std::size_t i = 0; i < molecule.size(); ++i) cells[cell_at(molecule.positions[i])].push_back(i);
-  std::size_t n_near = 0;
-  std::optional<std::pair<std::size_t, std::size_t>> first;
-  for (std::size_t i = 0; i < molecule.size(); ++i) {
-    const std::optional<std::size_t> other = near_atom(molecule, cells, i);
-    if (!other) continue;
-    ++n_near;
-    if (!first) first = {i, *other};
-  }
-  if (n_near < kLeastNear || static_cast<double>(n_near) < kMostNearShare * static_cast<double>(molecule.size()))
+  const NearAtoms near = near_atoms(molecule, [](std::size_t) { return true; });
+  if (near.n < kLeastNear || static_cast<double>(near.n) < kMostNearShare * static_cast<double>(molecule.size()))
     return;
-  throw InputError(molecule.name + ": " + std::to_string(n_near) + " of " + std::to_string(molecule.size()) +
-                   " atoms lie within 0.5 A of another (" + named_atom(molecule, first->first) + " and " +
-                   named_atom(molecule, first->second) +
-                   "): give coordinates in Angstrom, not in nm, and each chain and model once");
+  throw InputError(molecule.name + ": " + std::to_string(near.n) + " of " + std::to_string(molecule.size()) +
+                   in_words(molecule, near) +
+                   ": give coordinates in Angstrom, not in nm, and each chain and model once");
 }
 
 void require_all_atoms(const Molecule& molecule) {

@@ -1,9 +1,15 @@
 // separate_atoms.h: what no program can add hydrogens to.
 #pragma once
 
+#include <string>
+
 namespace espdiff {
 
 struct Molecule;
+
+/// Finds hydrogens on top of other atoms, ten or more, as programs leave them that place them roughly. Heavy atoms lie
+/// apart. @returns what is wrong, for people: "26 atoms lie within 0.5 A of another (...)"; empty where nothing is
+std::string misplaced_hydrogens(const Molecule& molecule);
 
 /// Refuses a molecule of whose atoms a tenth or more, and at least ten, lie within 0.5 A of another: one in nm, or one
 /// with a chain on top of itself. PDB2PQR would try to move them apart, for minutes to an hour.
