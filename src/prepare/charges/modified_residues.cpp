@@ -93,6 +93,7 @@ void name_charged_residues(Molecule& molecule, Preparation& preparation) {
 }
 
 /// CHARMM has one name for both sugars, as the PDB had; to residues without O2' of such a name PDB2PQR would add it.
+/// Amber marks the ends of chains (G5, DC3), which PDB2PQR finds itself.
 void name_nucleotides(Molecule& molecule, Preparation& preparation) {
   constexpr std::pair<std::string_view, const char*> kNames[] = {{"ADE", "A"}, {"CYT", "C"}, {"GUA", "G"},
                                                                  {"THY", "T"}, {"URA", "U"}, {"URI", "U"}};
@@ -100,6 +101,7 @@ void name_nucleotides(Molecule& molecule, Preparation& preparation) {
   const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
   for (std::size_t r = 0; r < atoms.size(); ++r) {
     std::string name = molecule.residues[r].name;
+    if (name.size() > 1 && (name.back() == '5' || name.back() == '3') && residue_letter(name) != '?') name.pop_back();
     for (const auto& [charmm, usual] : kNames) {
       if (name == charmm && kinds[r] == ResidueKind::kNucleotide) name = usual;
     }

@@ -27,6 +27,7 @@
 #include "io/molecules/select_atoms.h"
 #include "io/molecules/write_pdb.h"
 #include "io/structures/structure_file.h"
+#include "io/text/text_cursor.h"
 #include "prepare/charges/cache.h"
 #include "prepare/charges/caps.h"
 #include "prepare/charges/closed_chains.h"
@@ -119,6 +120,14 @@ bool has_kind(const Molecule& molecule, ResidueKind kind) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
+/// The name of a group. PROPKA knows metals by the PDB's names of them, and ends with an error at CHARMM's (ZN2, CAL).
+std::string propka_name(const LeftOutResidue& group) {
+  static const std::map<std::string, const char*> names = {{"mg", "MG"}, {"ca", "CA"}, {"zn", "ZN"}, {"na", "NA"},
+                                                           {"mn", "MN"}, {"k", "K"},   {"cd", "CD"}};
+  const auto found = group.atoms.size() == 1 ? names.find(lower_case(group.atoms[0].element)) : names.end();
+  return found == names.end() ? group.residue.name : found->second;
+}
+
 /// The molecule followed by the groups beside its chains that were left out of it, without those of a residue that it
 /// has a part of, and without hydrogens, which PROPKA does not look at.
 Molecule with_left_out_groups(const Molecule& molecule) {
@@ -128,6 +137,7 @@ Molecule with_left_out_groups(const Molecule& molecule) {
   for (const LeftOutResidue& left : molecule.left_out) {
     if (own.count(key_of(left.residue)) > 0) continue;
     groups.residues.push_back(left.residue);
+    groups.residues.back().name = propka_name(left);
     for (std::size_t i = 0; i < left.atoms.size(); ++i) {
       if (left.atoms[i].element == "H" || left.atoms[i].element == "D") continue;
       groups.atoms.push_back(left.atoms[i]);
