@@ -428,6 +428,42 @@ TEST_CASE("coordinates in nm and a chain on top of itself are refused before PDB
   }
 }
 
+TEST_CASE("prepare_molecule: hydrogens on top of each other are placed anew") {
+  const auto path = real_input("pqr_pdb2pqr/1AJJ.pdb");
+  if (!path || !has_pdb2pqr()) return;
+  const Molecule bare = read_structure(*path, {1, false, false, {}});
+  const Prepared usual = prepare(bare);
+  Molecule rough = usual.molecule;
+  rough.charges.clear();
+  std::vector<std::size_t> hydrogens;
+  for (std::size_t i = 0; i < rough.size(); ++i) {
+    if (rough.atoms[i].element == "H" && rough.atoms[i].name.substr(0, 2) == "HB") hydrogens.push_back(i);
+  }
+  REQUIRE(hydrogens.size() > 20);
+  CHECK(misplaced_hydrogens(rough).empty());
+  for (std::size_t k = 0; k + 1 < 12; k += 2)
+    rough.positions[hydrogens[k]] = rough.positions[hydrogens[k + 1]] + Vec3d{0.1, 0, 0};
+  CHECK(misplaced_hydrogens(rough).find("12 atoms lie within 0.5 A of another (HB2 of ") == 0);
+  const Prepared anew = prepare(rough);
+  REQUIRE(anew.molecule.size() == usual.molecule.size());
+  const auto places = [](const Molecule& molecule) {
+    std::map<std::pair<std::int32_t, std::string>, Vec3d> at;
+    for (std::size_t i = 0; i < molecule.size(); ++i)
+      at[{molecule.atoms[i].residue, molecule.atoms[i].name}] = molecule.positions[i];
+    return at;
+  };
+  const auto before = places(usual.molecule), after = places(anew.molecule);
+  for (const auto& [atom, place] : before) {
+    CAPTURE(atom.second);
+    CHECK(norm(after.at(atom) - place) < 1e-6);
+  }
+  const auto& notes = anew.preparation.notes;
+  CHECK(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.find("hydrogens were placed anew, since 12 atoms lie within 0.5 A of another (HB2 of ") !=
+           std::string::npos;
+  }));
+}
+
 TEST_CASE("load_state: the target takes the source's protonation states") {
   const auto path = real_input("pairs/4ake.pdb");
   if (!path || !has_pdb2pqr()) return;
@@ -629,6 +665,21 @@ TEST_CASE("load_state: what is left out is kept aside with its charge, and PROPK
   CHECK(state.preparation->notes ==
         std::vector<std::string>{"PROPKA saw 1 group beside the chains that the molecule leaves out"});
   for (const Residue& residue : state.molecule.residues) CHECK(residue.name != "ZN");
+}
+
+TEST_CASE("prepare_molecule: PROPKA gets CHARMM's zinc by its usual name") {
+  const std::string text = lysozyme(1, 40);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  const auto with_zinc = [&](const std::string& name) {
+    return prepare(read(folder, text + "HETATM 9000 ZN   " + name +
+                                    " A 301      40.000   5.000  10.000  1.00  0.00          Zn\n"));
+  };
+  const Prepared usual = with_zinc("ZN "), charmm = with_zinc("ZN2");
+  CHECK(charmm.preparation.propka);
+  CHECK(charmm.molecule.residues.back().name == "ZN2");
+  CHECK(charmm.molecule.charges == usual.molecule.charges);
+  CHECK(charmm.preparation.groups == std::vector<std::string>{"ZN2 301 of chain A: +2 e (common oxidation state)"});
 }
 
 TEST_CASE("prepare_molecule: a free amino acid under a chain's name, for which PDB2PQR renames the chain") {

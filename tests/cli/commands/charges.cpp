@@ -222,10 +222,25 @@ TEST_CASE("Amber's prmtop and restart: the numbers of a PQR with the same atoms,
   const Outcome given =
       run_espdiff("trajectory " + alone + " " + other + " --potential pb --topology " + prmtop + kQuick + table);
   CHECK_MESSAGE(given.status == 0, given.err);
-  const Outcome refused = run_espdiff("surface " + alone + " -o " + folder.file("no.vtp"));
-  CHECK(refused.status == 2);
-  CHECK_MESSAGE(contains(refused.err, "atoms without their names; give the topology"), refused.err);
-  CHECK(n_lines(refused.err) == 1);
+  const auto refusal_of = [&](const std::string& words) {
+    const Outcome refused = run_espdiff(words + kQuick + folder.file("no"));
+    CHECK(refused.status == 2);
+    return refused.err;
+  };
+  const std::string several = refusal_of("compare " + alone + " " + other);
+  CHECK_MESSAGE(contains(several, "atoms without their names; " + prmtop + " or " + folder.file("b.prmtop") +
+                                      " in its folder list as many: choose one by --source-topology FILE"),
+                several);
+  const ScratchFolder apart;
+  const std::string lonely = apart.write("lonely.inpcrd", read_file(a)), nothing = refusal_of("surface " + lonely);
+  CHECK_MESSAGE(contains(nothing, "atoms without their names; give the topology"), nothing);
+  CHECK(n_lines(nothing) == 1);
+  const std::string beside = apart.write("made.parm7", read_file(prmtop)), one = refusal_of("surface " + lonely);
+  CHECK_MESSAGE(contains(one, "atoms without their names; " + beside + " in its folder lists as many: --topology " +
+                                  beside + "\nnext: espdiff surface " + lonely),
+                one);
+  CHECK(run_espdiff("surface " + lonely + " --topology " + beside + " --device cpu -q -o " + folder.file("yes.vtp"))
+            .status == 0);
 }
 
 TEST_CASE("potential and surface prepare a structure without charges, as prepare does") {

@@ -201,7 +201,7 @@ TEST_CASE("read_topology_atoms: chains of a prmtop by its bonds, where several p
     return message_of([&] { read_topology_atoms(path); }).substr(path.size());
   };
   CHECK(refused({0, 4}) ==
-        ":16: %FLAG BONDS_WITHOUT_HYDROGEN: value 2 is '12'; thrice the index of an atom was expected");
+        ":17: %FLAG BONDS_WITHOUT_HYDROGEN: value 2 is '12'; thrice the index of an atom was expected");
   CHECK(refused({-1, 1}).find("value 1 is '-3'") != std::string::npos);
 }
 
