@@ -24,7 +24,7 @@ NOT_TAKEN = ("--cluster-by", "--groups", "--list", "--map-array", "--no-hetero",
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], allow_abbrev=False)
-    parser.add_argument("variants", nargs="+", help="structure files: PQR, PDB, mmCIF, GRO")
+    parser.add_argument("variants", nargs="+", help="structure files: PQR, PDB, mmCIF, GRO, MOL2")
     parser.add_argument("-o", "--output", required=True, help="prefix of the results, in a folder that all nodes see")
     parser.add_argument("--workers", type=int, default=2, help="processes, or jobs in the queue")
     parser.add_argument("--resume", action="store_true", help="continue what an interrupted run has left")

@@ -4,7 +4,7 @@
     >>> r = espdiff.compare("wild.pqr", "mutant.pqr")
     >>> r.metrics["mean_abs_difference"], r.certificate.trustworthy
 
-A state is a file (PQR, PDB, mmCIF, GRO, Amber restart), a `State`, a Universe or AtomGroup of MDAnalysis, or atoms of ProDy. Options have the names of
+A state is a file (PQR, PDB, mmCIF, GRO, MOL2, Amber restart), a `State`, a Universe or AtomGroup of MDAnalysis, or atoms of ProDy. Options have the names of
 the command line with underscores; `help_options()` lists them.
 """
 

@@ -149,8 +149,8 @@ std::string unpaired_examples(const ResidueView& source, const ResidueView& targ
     text += std::to_string(residues.size()) + " residues pair, but hardly any of their atom names (" +
             unpaired_examples(source, target, residues) + ")";
   }
-  throw InputError(text + "; give two states of one molecule, or compare them as given with " +
-                   option("align", "none"));
+  throw InputError(text + "; give two states of one molecule, or compare them where they lie (" +
+                   option("align", "none") + " and " + option("method", "deform") + ")");
 }
 
 bool is_backbone(const std::string& name, ResidueKind kind) {

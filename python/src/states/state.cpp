@@ -267,7 +267,7 @@ void add_state(nb::module_& module) {
                     "residues, by which the atoms of two states are paired. Read-only.")
       .def_static("read", &from_file, nb::arg("path"), nb::kw_only(), nb::arg("model") = 1, nb::arg("hetero") = true,
                   nb::arg("water") = false,
-                  "Reads a PQR, PDB, mmCIF, GRO or Amber restart file (also packed by gzip).\n\n"
+                  "Reads a PQR, PDB, mmCIF, GRO, MOL2 or Amber restart file (also packed by gzip).\n\n"
                   "model: which of the file's models, from 1. hetero: keep HETATM records. water: keep water as part "
                   "of the molecule; it counts for pme in a periodic cell in any case.\n"
                   "Raises IoError, FormatError, InputError.")

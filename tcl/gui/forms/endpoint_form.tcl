@@ -12,7 +12,7 @@ namespace eval ::espdiff::gui {
     unset side
 
     variable units {"as the map says" kT/e mV V kcal/mol/e kJ/mol/e hartree/e}
-    variable structure_types {{"Structures" {.pqr .pdb .ent .cif .mmcif .gro .gz}} {"All files" *}}
+    variable structure_types {{"Structures" {.pqr .pdb .ent .cif .mmcif .gro .mol2 .gz}} {"All files" *}}
     variable map_types {{"Potential maps" {.dx .vti .cube .cub .gz}} {"All files" *}}
     # In the place of a map: computed from the charges, and what the commands call it.
     variable computed {automatic "" "Poisson-Boltzmann" pb "PME, explicit water" pme "Coulomb, vacuum" coulomb}

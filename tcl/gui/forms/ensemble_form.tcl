@@ -33,7 +33,7 @@ namespace eval ::espdiff::gui {
         ttk::frame $path.buttons
         button $path.buttons.files "Add files..." ::espdiff::gui::browse_replicates
         button $path.buttons.remove Remove ::espdiff::gui::remove_replicates
-        tip $path.buttons.files "Structures (PQR, PDB, mmCIF, GRO) whose models are the frames; each file is a replicate"
+        tip $path.buttons.files "Structures (PQR, PDB, mmCIF, GRO, MOL2) whose models are the frames; each file is a replicate"
         tip $path.buttons.remove "Take the selected replicates off the list (Delete)"
         pack $path.buttons.files $path.buttons.remove -side top -fill x -pady {0 4}
         grid $path.list $path.scroll $path.buttons -sticky news

@@ -37,7 +37,7 @@ namespace eval ::espdiff::gui {
         ttk::frame $path.buttons
         button $path.buttons.files "Add files..." ::espdiff::gui::browse_variants
         button $path.buttons.remove Remove ::espdiff::gui::remove_variants
-        tip $path.buttons.files "Structures (PQR, PDB, mmCIF, GRO); each model of a file is a variant"
+        tip $path.buttons.files "Structures (PQR, PDB, mmCIF, GRO, MOL2); each model of a file is a variant"
         tip $path.buttons.remove "Take the selected variants off the list (Delete)"
         pack $path.buttons.files $path.buttons.remove -side top -fill x -pady {0 4}
         grid $path.list $path.scroll $path.buttons -sticky news

@@ -45,7 +45,7 @@ namespace eval ::espdiff::gui {
         button $path.choose.browse ... [list ::espdiff::gui::browse_trajectory file $structure_types]
         pack $path.choose.browse -side right -padx {4 0}
         pack $path.choose.file -fill x -expand 1
-        form_row $path 0 File $path.choose "Structure file (PQR, PDB, mmCIF, GRO) whose models are the frames; the first one\
+        form_row $path 0 File $path.choose "Structure file (PQR, PDB, mmCIF, GRO, MOL2) whose models are the frames; the first one\
             is frame 0"
         tip $path.choose.file "Structure file whose models are the frames; the first is frame 0"
         grid configure $path.choose -columnspan 3
