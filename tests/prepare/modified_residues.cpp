@@ -311,10 +311,10 @@ TEST_CASE("rename_residues: CHARMM's nucleotides by their sugar, a protonated ac
 }
 
 TEST_CASE("rename_residues: nucleotides that Amber names as ends of chains get their usual names") {
-  Molecule molecule = molecule_from(
-      row_of_names("G5", 1, {"C1'", "O2'", "N9"}) + row_of_names("C3", 2, {"C1'", "O2'", "N1"}) +
-      row_of_names("DA5", 3, {"C1'", "N9"}) + row_of_names("A3", 4, {"C1'", "N9"}) +
-      row_of_names("SO4", 5, {"S", "O1"}) + row_of_names("X5", 6, {"C1'", "O2'", "N9"}));
+  Molecule molecule =
+      molecule_from(row_of_names("G5", 1, {"C1'", "O2'", "N9"}) + row_of_names("C3", 2, {"C1'", "O2'", "N1"}) +
+                    row_of_names("DA5", 3, {"C1'", "N9"}) + row_of_names("A3", 4, {"C1'", "N9"}) +
+                    row_of_names("SO4", 5, {"S", "O1"}) + row_of_names("X5", 6, {"C1'", "O2'", "N9"}));
   Preparation preparation;
   rename_residues(molecule, preparation);
   CHECK(preparation.renamed == std::vector<std::string>{"G5 1 of chain A as G", "C3 2 of chain A as C",

@@ -672,8 +672,8 @@ TEST_CASE("prepare_molecule: PROPKA gets CHARMM's zinc by its usual name") {
   if (text.empty() || !has_pdb2pqr()) return;
   const ScratchFolder folder;
   const auto with_zinc = [&](const std::string& name) {
-    return prepare(read(folder, text + "HETATM 9000 ZN   " + name +
-                                    " A 301      40.000   5.000  10.000  1.00  0.00          Zn\n"));
+    return prepare(read(
+        folder, text + "HETATM 9000 ZN   " + name + " A 301      40.000   5.000  10.000  1.00  0.00          Zn\n"));
   };
   const Prepared usual = with_zinc("ZN "), charmm = with_zinc("ZN2");
   CHECK(charmm.preparation.propka);

@@ -105,6 +105,16 @@ bool is_amber_restart(std::string_view head) {
   return true;
 }
 
+/// MDL's molfile: three lines of title, then counts that end with the version.
+bool is_sdf(std::string_view head) {
+  ColumnLines lines{head};
+  for (int i = 0; i < 3; ++i) lines.next();
+  const std::string_view counts = trimmed(lines.next());
+  constexpr std::size_t kWidth = 5;
+  const std::string_view version = counts.substr(counts.size() - std::min(counts.size(), kWidth));
+  return version == "V2000" || version == "V3000";
+}
+
 /// By the first line that says something.
 FileKind recognise_first_line(std::string_view line) {
   const std::string lower = lower_case(line);
@@ -136,6 +146,7 @@ FileKind recognise(std::string_view head) {
   if (is_cube(head)) return FileKind::kCube;                                // before its title is taken for something
   if (is_gro(head)) return FileKind::kGro;
   if (is_amber_restart(head)) return FileKind::kAmberRestart;
+  if (is_sdf(head)) return FileKind::kSdf;
   const std::string unused_path;
   TextCursor cursor(head, unused_path);
   bool first = true;
@@ -172,6 +183,7 @@ std::string describe(FileKind kind) {
     case FileKind::kBinaryCif: return "a BinaryCIF structure";
     case FileKind::kMmtf: return "an MMTF structure";
     case FileKind::kMol2: return "a Tripos mol2 structure";
+    case FileKind::kSdf: return "an SDF structure";
     case FileKind::kPsf: return "a PSF topology";
     case FileKind::kPrmtop: return "an Amber prmtop topology";
     case FileKind::kTpr: return "a GROMACS run input (TPR)";

@@ -18,6 +18,7 @@ enum class FileKind {
   kBinaryCif,
   kMmtf,
   kMol2,
+  kSdf,  ///< MDL's molfiles
   kPsf,
   kPrmtop,
   kTpr,  ///< GROMACS' run input

@@ -99,8 +99,8 @@ std::size_t field_width(std::string_view format) {
 
 /// The sections that are read.
 std::map<std::string, Section> prmtop_sections(const std::string& text) {
-  constexpr const char* kRead[] = {"POINTERS", "ATOM_NAME", "CHARGE", "RADII", "RESIDUE_LABEL", "RESIDUE_POINTER",
-                                   kHeavyBonds};
+  constexpr const char* kRead[] = {"POINTERS",      "ATOM_NAME",       "CHARGE",   "RADII",
+                                   "RESIDUE_LABEL", "RESIDUE_POINTER", kHeavyBonds};
   std::map<std::string, Section> sections;
   Section* section = nullptr;
   std::size_t width = 0;
@@ -122,7 +122,8 @@ std::map<std::string, Section> prmtop_sections(const std::string& text) {
     } else if (line.substr(0, 1) != "%" && section != nullptr && width > 0) {
       std::string_view rest = line;
       while (!rest.empty() && (rest.back() == '\r' || rest.back() == '\n')) rest.remove_suffix(1);
-      // More atoms than kMostAtoms are refused later; until then they take no memory. Bonds are about as many, of three.
+      // More atoms than kMostAtoms are refused later; until then they take no memory. Bonds are about as many, of
+      // three.
       for (std::size_t at = 0; at < rest.size() && section->fields.size() <= 3 * kMostAtoms; at += width)
         section->fields.push_back(trimmed(rest.substr(at, width)));
     }
@@ -189,8 +190,7 @@ std::vector<bool> bonded_to_previous(const Topology& topology, const Section& bo
               residue_of.begin() + static_cast<std::ptrdiff_t>(residues[r].end), r);
   const auto residue_at = [&](std::size_t i) {
     long long value = 0;
-    if (!parse_integer(bonds.fields[i], value) || value < 0 ||
-        value / 3 >= static_cast<long long>(residue_of.size()))
+    if (!parse_integer(bonds.fields[i], value) || value < 0 || value / 3 >= static_cast<long long>(residue_of.size()))
       throw FormatError(topology.path, bonds.line,
                         std::string("%FLAG ") + kHeavyBonds + ": value " + std::to_string(i + 1) + " is " +
                             in_quotes(bonds.fields[i]) + "; thrice the index of an atom was expected");
@@ -204,8 +204,8 @@ std::vector<bool> bonded_to_previous(const Topology& topology, const Section& bo
   return bonded;
 }
 
-/// [residue] the chain, which a prmtop does not name: one begins where a peptide or nucleic acid does that no bond joins
-/// to the residue before. What is neither, such as ions and water, belongs to the chain before it.
+/// [residue] the chain, which a prmtop does not name: one begins where a peptide or nucleic acid does that no bond
+/// joins to the residue before. What is neither, such as ions and water, belongs to the chain before it.
 std::vector<std::size_t> prmtop_chains(const Topology& topology, const Section& bonds,
                                        const std::vector<PrmtopResidue>& residues) {
   std::vector<std::size_t> chain_of(residues.size());

@@ -27,6 +27,7 @@ namespace {
     case FileKind::kPrmtop:
       remedy = "give the structure or restart of its atoms, and this as " + option("topology");
       break;
+    case FileKind::kSdf: remedy = "`obabel LIGAND.sdf -O LIGAND.mol2` writes it with charges; give that"; break;
     case FileKind::kTpr:
     case FileKind::kGromacsTopology: remedy = kGromacsRemedy; break;
     case FileKind::kDcd:

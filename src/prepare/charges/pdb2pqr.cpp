@@ -593,8 +593,8 @@ void take_knowledge(const Molecule& before, Molecule& after) {
   }
 }
 
-/// The molecule without hydrogens, so that PDB2PQR places them, and PROPKA's run, whatever their names. Protons of acids
-/// are in the residues' names.
+/// The molecule without hydrogens, so that PDB2PQR places them, and PROPKA's run, whatever their names. Protons of
+/// acids are in the residues' names.
 Molecule without_hydrogens(const Molecule& molecule, const std::string& reason, Preparation& done) {
   Molecule bare = without_water(molecule, true);
   if (bare.size() == molecule.size()) return bare;

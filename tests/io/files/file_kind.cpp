@@ -22,6 +22,9 @@ TEST_CASE("file_kind: the marks of each format") {
                   "encoder\xa8mmtf") == FileKind::kBinaryCif);
   CHECK(recognise("\xde\x01\x10\xabmmtfVersion") == FileKind::kMmtf);
   CHECK(recognise("@<TRIPOS>MOLECULE\n") == FileKind::kMol2);
+  CHECK(recognise("ligand\n  made\n\n  1  0  0  0  0  0  0  0  0  0999 V2000\n    0.0 0.0 0.0 C\n") == FileKind::kSdf);
+  CHECK(recognise("\n\n\n  0  0  0     0  0            999 V3000\n") == FileKind::kSdf);
+  CHECK(recognise("a\nb\nc\nV2000 is a word\n") == FileKind::kUnknownText);
   CHECK(recognise("PSF CMAP\n\n") == FileKind::kPsf);
   CHECK(recognise("%VERSION  VERSION_STAMP = V0001.000") == FileKind::kPrmtop);
   CHECK(recognise(std::string("\0\0\0\x0e\0\0\0\x0dVERSION 2019\0\0", 22)) == FileKind::kTpr);

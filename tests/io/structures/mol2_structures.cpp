@@ -59,10 +59,10 @@ TEST_CASE("mol2: types of force fields are no elements, and repeated names get n
   const Molecule gaff = structure_of("a.mol2", mol2("1 CL1 0 0 0 cl 1 LIG -0.1\n2 C2 3 0 0 ca 1 LIG 0.1\n"));
   CHECK(gaff.atoms[0].element == "CL");
   CHECK(gaff.atoms[1].element == "C");
-  const Molecule m =
-      structure_of("b.mol2", mol2("1 C 0 0 0 C.3 1 LIG 0.1\n2 C 3 0 0 C.3 1 LIG 0.2\n3 O 6 0 0 O.3 1 LIG -0.3\n"
-                                  "4 O 9 0 0 O.3 2 WAT -0.8\n"),
-                   {1, true, true, {}});
+  const Molecule m = structure_of("b.mol2",
+                                  mol2("1 C 0 0 0 C.3 1 LIG 0.1\n2 C 3 0 0 C.3 1 LIG 0.2\n3 O 6 0 0 O.3 1 LIG -0.3\n"
+                                       "4 O 9 0 0 O.3 2 WAT -0.8\n"),
+                                  {1, true, true, {}});
   REQUIRE(m.size() == 4);
   CHECK(m.atoms[0].name == "C1");
   CHECK(m.atoms[1].name == "C2");
@@ -86,7 +86,8 @@ TEST_CASE("mol2: no charges where the file says so, an atom lacks one, or all ar
 TEST_CASE("mol2: molecules are models, and the line of a residue is known") {
   const ScratchFolder folder;
   const StructureFile file(
-      folder.write("a.mol2", mol2("1 C1 0 0 0 C.3 1 LIG 0.1\n") + mol2("1 N1 0 0 0 N.3 1 ONE1 0.3\n2 O 3 0 0 O.3 2 TWO2 -0.1\n", "NO_CHARGES")));
+      folder.write("a.mol2", mol2("1 C1 0 0 0 C.3 1 LIG 0.1\n") +
+                                 mol2("1 N1 0 0 0 N.3 1 ONE1 0.3\n2 O 3 0 0 O.3 2 TWO2 -0.1\n", "NO_CHARGES")));
   CHECK(file.n_models() == 2);
   CHECK(file.read({1, true, false, {}}).charges.size() == 1);
   const Molecule second = file.read({2, true, false, {}});
@@ -99,6 +100,9 @@ TEST_CASE("mol2: molecules are models, and the line of a residue is known") {
   CHECK(message_of([&] {
           file.read({1, true, false, "1"});
         }).find("is a MOL2 file, which describes no assemblies; leave assembly out") != std::string::npos);
+  CHECK(structure_error("a.sdf", "LIG\n made\n\n  1  0  0  0  0  0  0  0  0  0999 V2000\n    0.0 0.0 0.0 C\n") ==
+        "a.sdf: this looks like an SDF structure, which is not read as a structure; `obabel LIGAND.sdf -O LIGAND.mol2` "
+        "writes it with charges; give that");
   CHECK(structure_error("a.mol2", "@<TRIPOS>MOLECULE\nnothing\n") ==
         "a.mol2: has no @<TRIPOS>ATOM section; give a MOL2 file with atoms");
 }

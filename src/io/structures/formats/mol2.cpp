@@ -40,7 +40,8 @@ Mol2Residue residue_of(const Mol2Atom& atom) {
 std::string element_of(const Mol2Atom& atom) {
   const auto is_lower = [](char c) { return c >= 'a' && c <= 'z'; };
   const std::string& e = atom.element;
-  const bool is_symbol = !e.empty() && e[0] >= 'A' && e[0] <= 'Z' && (e.size() == 1 || (e.size() == 2 && is_lower(e[1])));
+  const bool is_symbol =
+      !e.empty() && e[0] >= 'A' && e[0] <= 'Z' && (e.size() == 1 || (e.size() == 2 && is_lower(e[1])));
   return is_symbol && e != "Du" ? e : std::string();
 }
 
