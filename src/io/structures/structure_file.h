@@ -1,4 +1,4 @@
-// structure_file.h: molecules from structure files (PQR, PDB, mmCIF, GRO, Amber's coordinates), distinguished by
+// structure_file.h: molecules from structure files (PQR, PDB, mmCIF, GRO, MOL2, Amber's coordinates), distinguished by
 // content; their models, or the frames of a trajectory with the atoms of another file, one after the other.
 #pragma once
 
@@ -26,7 +26,7 @@ class StructureModels;
 /// @throws InputError (no atoms, model out of range, format not read or not supported by this build, with remedy)
 Molecule read_structure(const std::string& path, const StructureOptions& options = {});
 
-/// "PQR, PDB, mmCIF, GRO or Amber restart"
+/// "PQR, PDB, mmCIF, GRO, MOL2 or Amber restart"
 std::string structure_format_names();
 
 /// Number of models in the file.

@@ -1,4 +1,4 @@
-// fuzz_structure.cpp: structures: PQR, PDB, mmCIF, GRO, Amber's coordinates, each as it is or packed by gzip.
+// fuzz_structure.cpp: structures: PQR, PDB, mmCIF, GRO, MOL2, Amber's coordinates, each as it is or packed by gzip.
 #include "fuzz/fuzz_file.h"
 #include "io/structures/structure_file.h"
 

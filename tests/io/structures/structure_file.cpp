@@ -10,8 +10,8 @@ using namespace espdiff_test;
 TEST_CASE("read_structure: real files of other formats are refused by name") {
   const std::pair<const char*, const char*> files[] = {
       {"map_ngl/esp.dx",
-       "an OpenDX map, which is not read as a structure; that is no structure; give a PQR, PDB, mmCIF, GRO or Amber "
-       "restart file"},
+       "an OpenDX map, which is not read as a structure; that is no structure; give a PQR, PDB, mmCIF, GRO, MOL2 or "
+       "Amber restart file"},
       {"map_ngl/3pqr-mode0.ccp4", "a CCP4/MRC map, which is not read as a structure; that is no structure"},
       {"map_ngl/benzene-homo.cube", "a Gaussian cube map"},
       {"map_vti/hydrogen.vti", "a VTI map"},
@@ -20,8 +20,8 @@ TEST_CASE("read_structure: real files of other formats are refused by name") {
       {"traj_adk/adk_dims.dcd", "a DCD trajectory"},
       {"box_tz2/tz2.truncoct.parm7", "an Amber prmtop topology"},
       {"tim/dTIM_seq.csv",
-       "a text file of unknown format, which is not read as a structure; give a PQR, PDB, mmCIF, GRO or Amber restart "
-       "file"}};
+       "a text file of unknown format, which is not read as a structure; give a PQR, PDB, mmCIF, GRO, MOL2 or Amber "
+       "restart file"}};
   for (const auto& [name, part] : files) {
     const auto path = real_input(name);
     if (!path) return;
