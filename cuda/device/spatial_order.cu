@@ -1,8 +1,9 @@
-// spatial_order.cu: sorts points along the Morton curve.
+// spatial_order.cu: sorts points along the Hilbert curve.
 #include "cuda/device/spatial_order.h"
 
 #include <cfloat>
 
+#include "cuda/device/hilbert_curve.h"
 #include "cuda/device/sort.h"
 
 #if !defined(ESPDIFF_BACKEND_CUDA)
@@ -36,10 +37,10 @@ Buffer<std::uint32_t> spatial_order(const Buffer<Vec4f>& points) {
   std::uint32_t* const code = raw(codes);
   std::uint32_t* const index = raw(order);
   for_each_index(n, [=] ESPDIFF_HD(std::size_t i) {
-    code[i] = morton_code(morton_scale(box->lower, box->upper) * (x[i].xyz() - box->lower));
+    code[i] = hilbert_code(hilbert_scale(box->lower, box->upper) * (x[i].xyz() - box->lower));
     index[i] = static_cast<std::uint32_t>(i);
   });
-  sort_by_key(codes, order, kMortonBits);
+  sort_by_key(codes, order, kHilbertBits);
   return order;
 }
 

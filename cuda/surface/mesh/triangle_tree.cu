@@ -1,11 +1,11 @@
-// triangle_tree.cu: builds the tree: Morton order, leaves, boxes level by level.
+// triangle_tree.cu: builds the tree: order along the Hilbert curve, leaves, boxes level by level.
 #include "cuda/surface/mesh/triangle_tree.h"
 
 #include <cfloat>
 #include <cmath>
 
+#include "cuda/device/hilbert_curve.h"
 #include "cuda/device/sort.h"
-#include "cuda/device/spatial_order.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -52,10 +52,10 @@ TriangleTree make_triangle_tree(const SurfaceMesh& mesh) {
   std::uint32_t* const index = raw(tree.order);
   for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
     const Vec3f sum = x[corners[t].v[0]].xyz() + x[corners[t].v[1]].xyz() + x[corners[t].v[2]].xyz();
-    code[t] = morton_code(morton_scale(bound->lower, bound->upper) * ((1.0F / 3.0F) * sum - bound->lower));
+    code[t] = hilbert_code(hilbert_scale(bound->lower, bound->upper) * ((1.0F / 3.0F) * sum - bound->lower));
     index[t] = static_cast<std::uint32_t>(t);
   });
-  sort_by_key(codes, tree.order, kMortonBits);
+  sort_by_key(codes, tree.order, kHilbertBits);
 
   tree.n_leaves = 1;
   while (tree.n_leaves * kTrianglesPerLeaf < n) tree.n_leaves *= 2;

@@ -1,6 +1,6 @@
 // triangle_tree.h: nearest triangle to a point, by a bounding-volume hierarchy.
 //
-// Triangles are ordered by the Morton code of their centroids and stored four to a leaf of a complete binary tree,
+// Triangles are ordered along the Hilbert curve of their centroids and stored four to a leaf of a complete binary tree,
 // whose boxes are built level by level. Without pointers or insertion order, the tree is a function of the mesh alone.
 // After the linear BVH of Lauterbach et al., Comput. Graph. Forum 28, 375 (2009), with a complete tree as the
 // hierarchy.

@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "cuda/deform/deform_iteration.h"
 #include "cuda/device/device.h"
+#include "cuda/device/hilbert_curve.h"
 #include "cuda/device/sort.h"
 #include "cuda/device/spatial_order.h"
 #include "cuda/surface/mesh/adjacency.h"
@@ -233,6 +234,30 @@ inline void check_reads() {
 }
 
 /// The spatial order contains each index once, and repeats.
+/// Of a lattice's cells each follows one that shares a face with it, and each has a place of its own.
+inline void check_hilbert_curve() {
+  constexpr std::size_t kEdge = 32, kCells = kEdge * kEdge * kEdge;
+  Buffer<std::uint32_t> codes(kCells);
+  std::uint32_t* const code = raw(codes);
+  for_each_index(kCells, [=] ESPDIFF_HD(std::size_t i) {
+    constexpr float kWidth = 1024.0F / kEdge;
+    code[i] = hilbert_code({kWidth * static_cast<float>(i % kEdge), kWidth * static_cast<float>(i / kEdge % kEdge),
+                            kWidth * static_cast<float>(i / kEdge / kEdge)});
+  });
+  constexpr int kBitsWithin = kHilbertBits - 15;
+  const std::vector<std::uint32_t> places = to_host(codes);
+  std::vector<std::size_t> at(kCells, kCells);
+  for (std::size_t i = 0; i < kCells; ++i) at[places[i] >> kBitsWithin] = i;
+  std::size_t n_steps = 0;
+  for (std::size_t i = 0; i + 1 < kCells; ++i) {
+    REQUIRE(at[i] < kCells);
+    const std::size_t a = std::min(at[i], at[i + 1]), b = std::max(at[i], at[i + 1]);
+    const bool is_row = b - a == 1 && b % kEdge != 0, is_plane = b - a == kEdge && b / kEdge % kEdge != 0;
+    if (is_row || is_plane || b - a == kEdge * kEdge) ++n_steps;
+  }
+  CHECK(n_steps == kCells - 1);
+}
+
 inline void check_spatial_order() {
   const std::size_t n = 30000;
   const std::vector<std::uint32_t> random = numbers(3 * n);
