@@ -247,7 +247,8 @@ TEST_CASE("prepare_molecule: C-alpha atoms alone and backbones without side chai
     int serial = 0;
     for (int r = 1; r <= 6; ++r) {
       for (const std::string& name : names) {
-        text += hetatm(++serial, name, "LEU", r, 1.5 * serial, 0, 0, name.substr(1, 1));
+        ++serial;
+        text += hetatm(serial, name, "LEU", r, 1.5 * serial, 0, 0, name.substr(1, 1));
       }
     }
     return message_of([&] { prepare_molecule(molecule_of(text), {}, {}, Progress()); });

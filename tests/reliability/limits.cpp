@@ -132,7 +132,7 @@ TEST_CASE("a ligand of more atoms than memory holds is refused before they are r
       run_espdiff("prepare a.pdb --ligand many.mol2 -o out.pqr -q",
                   "cd " + folder.file("") + " && export ESPDIFF_PDB2PQR=true && ulimit -v 900000 &&");
   CHECK(outcome.status == 1);
-  CHECK_MESSAGE(contains(outcome.err, "espdiff: many.mol2: needs 1.7 GB of memory, and "), outcome.err);
+  CHECK_MESSAGE(contains(outcome.err, "espdiff: many.mol2: needs 2.4 GB of memory, and "), outcome.err);
   CHECK(n_lines(outcome.err) == 1);
   CHECK(folder.n_files() == 2);
 }
