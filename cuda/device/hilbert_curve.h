@@ -52,13 +52,13 @@ struct HilbertTable {
 
 /// Place along the Hilbert curve of a point with coordinates from 0 to 1023.
 ESPDIFF_INLINE std::uint32_t hilbert_code(Vec3f p) {
-  static constexpr HilbertTable table;
+  static constexpr HilbertTable kTable;
   const std::uint32_t cells = spread_bits(static_cast<std::uint32_t>(p.x)) |
                               spread_bits(static_cast<std::uint32_t>(p.y)) << 1 |
                               spread_bits(static_cast<std::uint32_t>(p.z)) << 2;
   std::uint32_t code = 0, state = 0;
   for (int shift = 24; shift >= 0; shift -= 6) {
-    const std::uint32_t entry = table.entries[state << 6 | (cells >> shift & 63U)];
+    const std::uint32_t entry = kTable.entries[state << 6 | (cells >> shift & 63U)];
     code = code << 6 | (entry & 63U);
     state = entry >> 6;
   }
