@@ -12,6 +12,7 @@
 #include <mutex>
 
 #include "base/error.h"
+#include "io/files/file_kind.h"
 #include "io/files/run_program.h"
 #include "io/frames/molfile_abi.h"
 #include "system/shared_library.h"
@@ -23,10 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What ends the names of topologies and trajectories. VMD has no reader of GROMACS' tpr; MDAnalysis has one.
-constexpr const char* kEndings[] = {"dcd",    "xtc",    "trr",       "nc",   "ncdf", "netcdf",  "psf",
-                                    "prmtop", "parm7",  "top",       "rst7", "g96",  "crd",     "trj",
-                                    "mdcrd",  "crdbox", "lammpstrj", "xyz",  "h5",   "binpos",  "coor",
-                                    "dtr",    "stk",    "mol2",      "car",  "cor",  "namdbin", "tpr"};
+constexpr const char* kEndings[] = {"dcd", "xtc",    "trr",  "nc",  "ncdf", "netcdf", "psf",    "prmtop",    "parm7",
+                                    "top", "rst7",   "g96",  "crd", "trj",  "mdcrd",  "crdbox", "lammpstrj", "xyz",
+                                    "h5",  "binpos", "coor", "dtr", "stk",  "car",    "cor",    "namdbin",   "tpr"};
 
 std::string lower(std::string text) {
   for (char& letter : text) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
@@ -158,7 +158,10 @@ const MolfileReader* find_molfile_reader(const std::string& folder, const std::s
 
 bool needs_molfile_reader(const std::string& path) {
   const std::string ending = ending_of(path);
-  return std::any_of(std::begin(kEndings), std::end(kEndings), [&](const char* known) { return ending == known; });
+  const auto is_ending = [&](const char* known) { return ending == known; };
+  if (!std::any_of(std::begin(kEndings), std::end(kEndings), is_ending)) return false;
+  const FileKind kind = kind_of_file(path);
+  return kind != FileKind::kAmberRestart && kind != FileKind::kNetcdf;
 }
 
 }  // namespace espdiff

@@ -30,7 +30,8 @@ const std::vector<MolfileReader>& molfile_readers(const std::string& folder);
 /// VMD's reader for a file, by the ending of its name; null if there is none.
 const MolfileReader* find_molfile_reader(const std::string& folder, const std::string& path);
 
-/// Whether a file's name ends as those of topologies and trajectories do that only VMD's readers, or MDAnalysis', read.
+/// Whether a file's name ends as those of topologies and trajectories do that only VMD's readers, or MDAnalysis', read;
+/// Amber's restarts and NetCDF files are read here.
 bool needs_molfile_reader(const std::string& path);
 
 /// Of options that name the folder.

@@ -76,6 +76,18 @@ std::string restart_of(const espdiff::Molecule& m) {
   return text;
 }
 
+std::string mol2_of(const espdiff::Molecule& m) {
+  std::string text = "@<TRIPOS>MOLECULE\nmade\n 0 0 0 0 0\nPROTEIN\nUSER_CHARGES\n\n@<TRIPOS>ATOM\n";
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    const espdiff::Residue& residue = m.residues[static_cast<std::size_t>(m.atoms[i].residue)];
+    text += std::to_string(i + 1) + " " + m.atoms[i].name +
+            espdiff::formatted(" %.4f %.4f %.4f ", m.positions[i].x, m.positions[i].y, m.positions[i].z) +
+            m.atoms[i].element + espdiff::formatted(" %d ", residue.number) + residue.name +
+            espdiff::formatted("%d %.4f\n", residue.number, static_cast<double>(m.charges[i]));
+  }
+  return text;
+}
+
 /// The rows of a trajectory without its head, and without their checksums, which depend on the head.
 std::string rows(const std::string& csv) {
   const espdiff::CsvTable table = espdiff::read_csv(csv);
@@ -217,8 +229,9 @@ TEST_CASE("Amber's prmtop and restart: the numbers of a PQR with the same atoms,
   }
   CHECK(run_espdiff("prepare " + a + " -q -o " + folder.file("a.pqr")).status == 0);
   CHECK(espdiff::read_structure(folder.file("a.pqr")).size() == espdiff::read_structure(*first).size());
+  // A plugin of VMD has the second ending.
   const std::string alone = folder.write("alone.inpcrd", read_file(a));
-  const std::string other = folder.write("other.inpcrd", read_file(b)), table = folder.file("by_option.csv");
+  const std::string other = folder.write("other.rst7", read_file(b)), table = folder.file("by_option.csv");
   const Outcome given =
       run_espdiff("trajectory " + alone + " " + other + " --potential pb --topology " + prmtop + kQuick + table);
   CHECK_MESSAGE(given.status == 0, given.err);
@@ -232,9 +245,11 @@ TEST_CASE("Amber's prmtop and restart: the numbers of a PQR with the same atoms,
                                       " in its folder list as many: choose one by --source-topology FILE"),
                 several);
   const ScratchFolder apart;
-  const std::string lonely = apart.write("lonely.inpcrd", read_file(a)), nothing = refusal_of("surface " + lonely);
+  const std::string lonely = apart.write("lonely.rst7", read_file(a)), nothing = refusal_of("surface " + lonely);
   CHECK_MESSAGE(contains(nothing, "atoms without their names; give the topology"), nothing);
   CHECK(n_lines(nothing) == 1);
+  const std::string frames = run_espdiff("trajectory " + lonely + " " + lonely + " -o " + apart.file("no.csv")).err;
+  CHECK_MESSAGE(contains(frames, "atoms without their names; give the topology"), frames);
   const std::string beside = apart.write("made.parm7", read_file(prmtop)), one = refusal_of("surface " + lonely);
   CHECK_MESSAGE(contains(one, "atoms without their names; " + beside + " in its folder lists as many: --topology " +
                                   beside + "\nnext: espdiff surface " + lonely),
@@ -342,4 +357,27 @@ TEST_CASE("compare: a PSF beside a structure that PDB2PQR charged is named with 
   const std::string taken =
       run("compare " + a + " " + *pqr + " --source-topology " + topology, folder.file("taken"))["warnings"].dump();
   CHECK_FALSE(contains(taken, "-topology"));
+}
+
+TEST_CASE("MOL2 files: states of comparisons, and frames of trajectories without VMD") {
+  const auto first = real_input("series19_ubq_2k39/m00.pqr"), second = real_input("series19_ubq_2k39/m05.pqr");
+  if (!first || !second) return;
+  const ScratchFolder folder;
+  const auto write = [&](const std::string& pqr, const std::string& name) {
+    return folder.write(name, mol2_of(espdiff::read_structure(pqr, {1, true, true, {}})));
+  };
+  const std::string a = write(*first, "a.mol2"), b = write(*second, "b.mol2");
+  const Json pqr = run("compare " + *first + " " + *second, folder.file("pqr")),
+             mol2 = run("compare " + a + " " + b, folder.file("mol2"));
+  CHECK(mol2["potential"]["label"] == "Poisson-Boltzmann, 0.15 mol/l");
+  CHECK(mol2["radii_origin"]["source"] == "element");
+  CHECK(mol2["n_paired_atoms"] == pqr["n_paired_atoms"]);
+  CHECK(mol2["rmsd_A"].get<double>() == doctest::Approx(pqr["rmsd_A"].get<double>()).epsilon(1e-4));
+  const std::string table = folder.file("frames.csv");
+  const Outcome frames = run_espdiff("trajectory " + a + " " + b + " --potential pb" + kQuick + table);
+  REQUIRE_MESSAGE(frames.status == 0, frames.err);
+  const espdiff::CsvTable read = espdiff::read_csv(table);
+  REQUIRE(read.rows.size() == 1);
+  CHECK(std::stod(read.rows[0].at(read.require("mean_abs_difference"))) ==
+        doctest::Approx(mol2["mean_abs_difference"].get<double>()).epsilon(1e-6));
 }
