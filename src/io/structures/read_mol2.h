@@ -12,14 +12,14 @@ namespace espdiff {
 
 struct Mol2Atom {
   std::string name;
-  std::string element;    ///< from the atom type: "C" of "C.ar"
-  Vec3d position;         ///< Angstrom
-  double charge = 0;      ///< elementary charges; 0 where the file has none
-  std::string type = {};  ///< Tripos' atom type: "C.ar"
-  bool has_charge = false;
+  std::string element;                 ///< from the atom type: "C" of "C.ar"
+  Vec3d position;                      ///< Angstrom
+  double charge = 0;                   ///< elementary charges; 0 where the file has none
+  std::string type = {};               ///< Tripos' atom type: "C.ar"
+  bool has_charge = false;             ///< whether the line has one
   int substructure = 1;                ///< its number and name: 1, "ALA1"
   std::string substructure_name = {};  ///< empty where the file has none
-  long line = 0;
+  long line = 0;                       ///< of the file, from 1
 };
 
 /// Two atoms of a file, by their places in Mol2File::atoms.
