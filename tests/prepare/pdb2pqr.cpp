@@ -453,9 +453,9 @@ TEST_CASE("prepare_molecule: hydrogens on top of each other are placed anew") {
     return at;
   };
   const auto before = places(usual.molecule), after = places(anew.molecule);
-  for (const auto& [atom, place] : before) {
-    CAPTURE(atom.second);
-    CHECK(norm(after.at(atom) - place) < 1e-6);
+  for (const auto& placed : before) {
+    CAPTURE(placed.first.second);
+    CHECK(norm(after.at(placed.first) - placed.second) < 1e-6);
   }
   const auto& notes = anew.preparation.notes;
   CHECK(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
