@@ -90,6 +90,41 @@ ESPDIFF_INLINE void load_lanes(const float* values, Numbers& lanes) {
   std::memcpy(&lanes, values, sizeof lanes);
 }
 
+/// [bits] the places of the ones among eight bits, in ascending order.
+struct OnesOfEight {
+  std::uint8_t places[256][8];
+};
+constexpr OnesOfEight ones_of_eight() {
+  OnesOfEight table{};
+  for (unsigned bits = 0; bits < 256; ++bits) {
+    std::size_t n = 0;
+    for (unsigned place = 0; place < 8; ++place) {
+      if ((bits >> place & 1U) != 0) table.places[bits][n++] = static_cast<std::uint8_t>(place);
+    }
+  }
+  return table;
+}
+inline constexpr OnesOfEight kOnesOfEight = ones_of_eight();
+
+/// Lists which bits are set, without a branch that would be guessed wrong for each word: eight places are written at
+/// once, and those beyond the count are overwritten.
+template <std::size_t Most>
+struct PlacesOfOnes {
+  std::size_t n = 0;
+  std::uint16_t places[Most + kBlock];
+
+  /// @param bits of N places, the first of which is `first`
+  template <std::size_t N>
+  ESPDIFF_INLINE void append(std::uint32_t bits, std::size_t first) {
+    for (std::size_t part = 0; part < N; part += kBlock) {
+      const std::uint32_t eight = bits >> part & 255U;
+      for (std::size_t k = 0; k < kBlock; ++k)
+        places[n + k] = static_cast<std::uint16_t>(first + part + kOnesOfEight.places[eight][k]);
+      n += static_cast<std::size_t>(__builtin_popcount(eight));
+    }
+  }
+};
+
 }  // namespace espdiff::ESPDIFF_BACKEND
 
 #endif

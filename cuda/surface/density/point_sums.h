@@ -222,15 +222,12 @@ ESPDIFF_INLINE void sum_at_block(const AtomCellsView& cells, const SharedAtoms& 
   if (!shared.is_complete) list_next_atoms<N>(cells, walk, own);
   const NearAtoms& near = shared.is_complete ? shared.near : own;
   walk.is_done = walk.is_done || shared.is_complete;
-  for (std::size_t at = 0;;) {
-    if (at >= near.n) {
-      if (walk.is_done) break;
-      list_next_atoms<N>(cells, walk, own);
-      at = 0;
-      continue;
-    }
-    for (std::uint32_t within = atoms_within<N>(near, at, box); within != 0; within &= within - 1) {
-      const std::uint32_t a = near.atom[at + static_cast<std::size_t>(__builtin_ctz(within))];
+  PlacesOfOnes<NearAtoms::kMost + kWideBlock> within;
+  for (;;) {
+    within.n = 0;
+    for (std::size_t at = 0; at < near.n; at += N) within.append<N>(atoms_within<N>(near, at, box), at);
+    for (std::size_t i = 0; i < within.n; ++i) {
+      const std::uint32_t a = near.atom[within.places[i]];
       const float k = cells.exponent[a];
       const Numbers dx = px - cells.x[a], dy = py - cells.y[a], dz = pz - cells.z[a];
       const Numbers square = dx * dx + dy * dy + dz * dz;
@@ -240,7 +237,8 @@ ESPDIFF_INLINE void sum_at_block(const AtomCellsView& cells, const SharedAtoms& 
       exp_of_negative_lanes<Numbers>(kShareOf<What> * (Numbers)((Mask)argument & counts), exponential);
       add(a, k, dx, dy, dz, square, (Numbers)((Mask)exponential & counts));
     }
-    at += N;
+    if (walk.is_done) break;
+    list_next_atoms<N>(cells, walk, own);
   }
 }
 
