@@ -17,19 +17,24 @@ struct FlowSums {
 template <typename Number>
 ESPDIFF_INLINE void add_atom(FlowSums<Number>& sum, const AtomChange& change, float exponent, const Number& dx,
                              const Number& dy, const Number& dz, const Number& square, const Number& root) {
-  const Number gaussian = root * root, weighted = change.weight * gaussian;
+  const Number gaussian = root * root;
+  Number weighted = gaussian, blended = root;
+  if (!change.is_steady) {
+    weighted = change.weight * gaussian;
+    blended = change.weight * root;
+    sum.rate += change.weight_rate * gaussian + weighted * (change.exponent_rate * square);
+  }
   const Number slope = exponent * weighted;
   sum.density += weighted;
   sum.gx += slope * dx;
   sum.gy += slope * dy;
   sum.gz += slope * dz;
-  const Number blended = change.weight * root;
   sum.blend += blended;
   sum.vx += blended * (change.velocity.x + (change.spin.y * dz - change.spin.z * dy));
   sum.vy += blended * (change.velocity.y + (change.spin.z * dx - change.spin.x * dz));
   sum.vz += blended * (change.velocity.z + (change.spin.x * dy - change.spin.y * dx));
   const Number approach = dx * change.velocity.x + dy * change.velocity.y + dz * change.velocity.z;
-  sum.rate += change.weight_rate * gaussian + weighted * (change.exponent_rate * square) - 2.0F * (slope * approach);
+  sum.rate -= 2.0F * (slope * approach);
 }
 
 ESPDIFF_INLINE FlowSample flow_sample(float density, Vec3f gradient, float blend, Vec3f momentum, float rate) {

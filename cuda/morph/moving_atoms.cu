@@ -67,9 +67,13 @@ MovingAtoms atoms_at(const std::vector<MovingAtom>& atoms, double time) {
   for (std::size_t i = 0; i < atoms.size(); ++i) {
     const MovingAtom& a = atoms[i];
     const double width = static_cast<double>(widths[i]);
-    changes[i] = {static_cast<Vec3f>(a.velocity_at(time)), static_cast<Vec3f>(a.spin_at(time)),
-                  static_cast<float>(a.weight_at(time)), static_cast<float>(a.weight_rate_at(time)),
-                  static_cast<float>((a.end_width - a.start_width) / (width * width * width))};
+    AtomChange& change = changes[i];
+    change.velocity = static_cast<Vec3f>(a.velocity_at(time));
+    change.spin = static_cast<Vec3f>(a.spin_at(time));
+    change.weight = static_cast<float>(a.weight_at(time));
+    change.weight_rate = static_cast<float>(a.weight_rate_at(time));
+    change.exponent_rate = static_cast<float>((a.end_width - a.start_width) / (width * width * width));
+    change.is_steady = change.weight == 1.0F && change.weight_rate == 0.0F && change.exponent_rate == 0.0F;
   }
   Buffer<std::uint32_t> order;
   MovingAtoms now;

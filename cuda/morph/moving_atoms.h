@@ -16,6 +16,7 @@ struct AtomChange {
   float weight;         ///< 0 to 1: unpaired atoms fade
   float weight_rate;    ///< 1 / time
   float exponent_rate;  ///< of -1 / (2 s^2), 1 / (Angstrom^2 time)
+  bool is_steady;       ///< its weight is 1, and neither that nor its width changes
 };
 
 /// Atoms at one time.

@@ -116,7 +116,7 @@ ESPDIFF_INLINE Lanes nearest_of_lanes(const TriangleTreeView& tree, const LaneVe
       for (std::uint32_t t = begin; t < end; ++t) {
         if (!any_may_be_nearer(box_lanes(p, box_of(tree.triangles[t])), nearest)) continue;
         const Lanes found = triangle_lanes(p, tree.triangles[t]);
-        if (found[0] < nearest[0]) guess = t;
+        if (found[kBlock - 1] < nearest[kBlock - 1]) guess = t;
         nearest = smaller_lanes(found, nearest);
       }
     }

@@ -40,22 +40,17 @@ ESPDIFF_INLINE void sum_at_point(const AtomCellsView& cells, Vec3f p, Add add) {
 
 #if !defined(__CUDACC__)
 
-/// exp_of_negative() per lane. Casts between vectors keep their bits.
+/// exp_of_negative(share * x) per lane, with the same bits, since the share is a power of two; anything where x is below
+/// -80. Casts between vectors keep their bits.
 template <typename Numbers>
-ESPDIFF_INLINE void exp_of_negative_lanes(const Numbers& x, Numbers& result) {
+ESPDIFF_INLINE void exp_of_negative_lanes(float share, const Numbers& x, Numbers& result) {
   using Bits = typename TypesOf<Numbers>::Bits;
-  const Numbers t = x * 1.44269504F;
+  const Numbers t = x * (share * 1.44269504F);
   constexpr float kRound = 12582912.0F;
   const Numbers rounded = t + kRound;
   const Numbers f = t - (rounded - kRound);
-  Numbers p = 1.5403530e-4F * f + 1.3333558e-3F;
-  p = p * f + 9.6181291e-3F;
-  p = p * f + 5.5504109e-2F;
-  p = p * f + 2.4022651e-1F;
-  p = p * f + 6.9314718e-1F;
-  p = p * f + 1.0F;
   const Bits scale = ((Bits)rounded + 127U) << 23;
-  result = p * (Numbers)scale;
+  result = power_of_two(f) * (Numbers)scale;
 }
 
 struct BlockBox {
@@ -234,7 +229,7 @@ ESPDIFF_INLINE void sum_at_block(const AtomCellsView& cells, const SharedAtoms& 
       const Numbers argument = k * square;
       const Mask counts = argument > kCutoffExponent;
       Numbers exponential;
-      exp_of_negative_lanes<Numbers>(kShareOf<What> * (Numbers)((Mask)argument & counts), exponential);
+      exp_of_negative_lanes(kShareOf<What>, argument, exponential);
       add(a, k, dx, dy, dz, square, (Numbers)((Mask)exponential & counts));
     }
     if (walk.is_done) break;
