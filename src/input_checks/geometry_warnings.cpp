@@ -194,14 +194,14 @@ void check_bonds(const std::string& role, const ResidueView& view, std::size_t n
                         crowded.is_systematic(kMostSpoiled, n_chain_residues)});
 }
 
-/// Heavy atoms in cubes whose edge is the distance that is looked for.
+/// Heavy atoms in cubes that are larger than the distance that is looked for: most atoms look into one.
 class PlaceCells {
  public:
   explicit PlaceCells(const ResidueView& view) : view_(view) {
     for (std::size_t r = 0; r < view.kinds.size(); ++r) {
       if (view.kinds[r] == ResidueKind::kWater) continue;
       for (const std::size_t i : view.atoms[r]) {
-        if (!is_light(view.molecule->atoms[i])) cells_[key(view.molecule->positions[i], 0, 0, 0)].push_back(i);
+        if (!is_light(view.molecule->atoms[i])) cells_[cubes(view.molecule->positions[i], 0).front()].push_back(i);
       }
     }
   }
@@ -211,8 +211,8 @@ class PlaceCells {
     const Molecule& molecule = *view_.molecule;
     for (const std::size_t i : view_.atoms[residue]) {
       if (is_light(molecule.atoms[i])) continue;
-      for (int cube = 0; cube < 27; ++cube) {
-        const auto found = cells_.find(key(molecule.positions[i], cube % 3 - 1, cube / 3 % 3 - 1, cube / 9 - 1));
+      for (const std::uint64_t cube : cubes(molecule.positions[i], kSamePlace_A)) {
+        const auto found = cells_.find(cube);
         if (found == cells_.end()) continue;
         for (const std::size_t j : found->second) {
           const std::int32_t other = molecule.atoms[j].residue;
@@ -226,11 +226,23 @@ class PlaceCells {
   }
 
  private:
-  static std::uint64_t key(const Vec3d& p, int dx, int dy, int dz) {
-    const auto place = [](double x, int d) {
-      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / kSamePlace_A)) + d) & 0x1fffffU;
-    };
-    return place(p.x, dx) << 42U | place(p.y, dy) << 21U | place(p.z, dz);
+  static constexpr double kEdge_A = 4 * kSamePlace_A;
+
+  /// The cubes within a distance of p.
+  static std::vector<std::uint64_t> cubes(const Vec3d& p, double distance_A) {
+    std::vector<std::uint64_t> found{0};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto place = [&](double x) {
+        return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / kEdge_A))) & 0x1fffffU;
+      };
+      const std::uint64_t low = place(p[axis] - distance_A), high = place(p[axis] + distance_A);
+      const std::size_t n = found.size();
+      for (std::size_t k = 0; k < n; ++k) {
+        if (high != low) found.push_back(found[k] << 21U | high);
+        found[k] = found[k] << 21U | low;
+      }
+    }
+    return found;
   }
 
   const ResidueView& view_;
@@ -263,8 +275,6 @@ void check_places(const std::string& role, const ResidueView& view, std::size_t 
             ", as where one file holds two states or a chain twice: give one of them (" + option("select") + ")";
   warnings.push_back({text, refuses});
 }
-
-/// Amino acids of which only the backbone, with C-beta or without, or less is there; glycine and alanine do not tell.
 
 /// Amino acids of which only the backbone, with C-beta or without, is there; glycine and alanine do not tell.
 void check_side_chains(const std::string& role, const ResidueView& view, std::vector<Warning>& warnings) {

@@ -40,8 +40,8 @@ ESPDIFF_INLINE void sum_at_point(const AtomCellsView& cells, Vec3f p, Add add) {
 
 #if !defined(__CUDACC__)
 
-/// exp_of_negative(share * x) per lane, with the same bits, since the share is a power of two; anything where x is below
-/// -80. Casts between vectors keep their bits.
+/// exp_of_negative(share * x) per lane, with the same bits, since the share is a power of two; anything where x is
+/// below -80. Casts between vectors keep their bits.
 template <typename Numbers>
 ESPDIFF_INLINE void exp_of_negative_lanes(float share, const Numbers& x, Numbers& result) {
   using Bits = typename TypesOf<Numbers>::Bits;
