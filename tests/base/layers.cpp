@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -249,6 +250,22 @@ TEST_CASE("every source file states its purpose in its first line") {
       CHECK(line.find("// " + entry.path().filename().string() + ": ") == 0);
     }
   }
+}
+
+TEST_CASE("every test is in a program") {
+  const fs::path tests = fs::path(ESPDIFF_SOURCE_DIR) / "tests";
+  std::ifstream in(tests / "CMakeLists.txt");
+  const std::string lists{std::istreambuf_iterator<char>(in), {}};
+  int n_files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(tests)) {
+    const std::string file = entry.path().lexically_relative(tests).string(), room = file.substr(0, file.find('/'));
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".cpp" && extension != ".cu") continue;
+    if (room == "fuzz" || room == "cuda_emulator" || room == "install") continue;  // with rules of their own
+    CHECK_MESSAGE(lists.find(file) != std::string::npos, file, " is not in tests/CMakeLists.txt");
+    ++n_files;
+  }
+  CHECK(n_files > 200);
 }
 
 TEST_CASE("only the command line writes options with dashes; other messages name them") {

@@ -57,7 +57,7 @@ TEST_CASE("mol2: names of residues with digits of their own keep them") {
 
 TEST_CASE("mol2: types of force fields are no elements, and repeated names get numbers") {
   const Molecule gaff = structure_of("a.mol2", mol2("1 CL1 0 0 0 cl 1 LIG -0.1\n2 C2 3 0 0 ca 1 LIG 0.1\n"));
-  CHECK(gaff.atoms[0].element == "CL");
+  CHECK(gaff.atoms[0].element == "Cl");
   CHECK(gaff.atoms[1].element == "C");
   const Molecule m = structure_of("b.mol2",
                                   mol2("1 C 0 0 0 C.3 1 LIG 0.1\n2 C 3 0 0 C.3 1 LIG 0.2\n3 O 6 0 0 O.3 1 LIG -0.3\n"
