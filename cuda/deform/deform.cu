@@ -184,7 +184,7 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceMesh& 
   DeformState state;
   state.positions = mesh.positions;
   state.moved.resize(n);
-  Buffer<Vec4f> laplacians(n), rest_laplacians(n);
+  Buffer<Vec4f> laplacians(n), rest_laplacians(options.rest_shape ? n : 0);
   Buffer<float> strengths(n), path_lengths(n, 0.0F);
   Iteration& it = state.iteration;
   it.topology = mesh.view();
@@ -193,7 +193,7 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceMesh& 
   it.strength = raw(strengths);
   it.path_length = raw(path_lengths);
   it.laplacian = raw(laplacians);
-  it.rest = raw(rest_laplacians);
+  it.rest = options.rest_shape ? raw(rest_laplacians) : nullptr;
   it.tricubic = options.interpolation == Interpolation::kTricubic;
   set_steps(it, options);
   it.from = raw(state.positions);
@@ -201,10 +201,11 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceMesh& 
   for_each_index(n, [=] ESPDIFF_HD(std::size_t v) {
     start.strength[v] = field_at(start, start.from[v].xyz()).w > 0 ? -1.0F : 1.0F;
   });
-  const Vec4f* const shape = options.rest_shape ? raw(rest_mesh.positions) : nullptr;
-  Vec4f* const rest = raw(rest_laplacians);
-  for_each_index(
-      n, [=] ESPDIFF_HD(std::size_t v) { rest[v] = shape != nullptr ? umbrella(start.topology, shape, v) : Vec4f{}; });
+  if (options.rest_shape) {
+    const Vec4f* const shape = raw(rest_mesh.positions);
+    Vec4f* const rest = raw(rest_laplacians);
+    for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { rest[v] = umbrella(start.topology, shape, v); });
+  }
 
   DeformReport result;
 #if defined(ESPDIFF_BACKEND_CUDA)

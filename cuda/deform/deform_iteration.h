@@ -17,7 +17,7 @@ struct Iteration {
   CubicLattice lattice;
   const Vec4f* field;
   const Vec4f* from;   // [vertex]
-  const Vec4f* rest;   // [vertex] L of the rest shape
+  const Vec4f* rest;   // [vertex] L of the rest shape; null for none
   Vec4f* laplacian;    // [vertex] L of `from` minus L of the rest shape
   Vec4f* to;           // [vertex] w: distance moved
   float* path_length;  // [vertex] path length over all iterations
@@ -55,7 +55,8 @@ ESPDIFF_INLINE void move_vertex(const Iteration& it, std::size_t v) {
 }
 
 ESPDIFF_INLINE void take_laplacian(const Iteration& it, std::size_t v) {
-  it.laplacian[v] = umbrella(it.topology, it.from, v) - it.rest[v];
+  const Vec4f laplacian = umbrella(it.topology, it.from, v);
+  it.laplacian[v] = it.rest == nullptr ? laplacian : laplacian - it.rest[v];
 }
 
 /// State of the iteration: positions, and a buffer for the next ones.

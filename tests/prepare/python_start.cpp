@@ -146,6 +146,39 @@ print(definitions.copy is copy, file=sys.stderr)
   CHECK(by_itself == printed_by(words_to_start(program)));
 }
 
+TEST_CASE("words_to_start: PDB2PQR's angles and rotations have its bits") {
+  const ScratchFolder folder;
+  const std::string program = folder.write("a program", R"(#!/usr/bin/python3
+import random, sys, types, warnings
+try:
+    from pdb2pqr import quatfit
+    from pdb2pqr.hydrogens.optimize import Optimize
+except ImportError:
+    print("no PDB2PQR")
+    sys.exit()
+print(quatfit.jacobi.__module__, Optimize.get_hbond_angle.__module__, file=sys.stderr)
+warnings.simplefilter("ignore")
+random.seed(5)
+some = (lambda: random.gauss(0, 10 ** random.randint(-9, 9)), lambda: float(random.randint(-2, 2)),
+        lambda: random.choice((0.0, random.gauss(0, 1))), lambda: round(random.uniform(-9, 9), 3))
+for i in range(1500):
+    number = some[i % 4]
+    print(quatfit.jacobi([[number() for _ in range(4)] for _ in range(4)], 30))
+    print(Optimize.get_hbond_angle(*(types.SimpleNamespace(coords=[number() for _ in range(3)]) for _ in range(3))))
+)");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::string by_itself = printed_by({program});
+  if (by_itself == "no PDB2PQR\n") {
+    MESSAGE("SKIPPED: no PDB2PQR for /usr/bin/python3; install it (Debian: pdb2pqr)");
+    return;
+  }
+  CHECK(by_itself.size() > 300000);
+  espdiff::ProgramCall call;
+  call.words = words_to_start(program);
+  CHECK(espdiff::run_program(call).messages == "__main__ __main__\n");  // the short ways are there
+  CHECK(by_itself == printed_by(words_to_start(program)));
+}
+
 TEST_CASE("words_to_start: other programs run as they are") {
   const ScratchFolder folder;
   for (const char* content : {"#!/bin/sh\necho it\n",
