@@ -75,15 +75,16 @@ def shorten_copies():
     copies = types.ModuleType('copy')
     copies.__dict__.update(copy.__dict__, deepcopy=lambda thing: pickle.loads(pickle.dumps(thing, -1)))
     definitions.copy = copies
-def has_parameters(function, *names):
-    return function.__code__.co_varnames[:function.__code__.co_argcount] == names
+def has_parameters(owner, name, *parameters):
+    code = getattr(getattr(owner, name, None), '__code__', None)
+    return code is not None and code.co_varnames[:code.co_argcount] == parameters
 def shorten_angles():
     import math, numpy
     try:
         from pdb2pqr.hydrogens.optimize import Optimize
     except ImportError:
         return
-    if not has_parameters(Optimize.get_hbond_angle, 'atom1', 'atom2', 'atom3'):
+    if not has_parameters(Optimize, 'get_hbond_angle', 'atom1', 'atom2', 'atom3'):
         return
     acos, array, pi, sqrt = math.acos, numpy.array, math.pi, math.sqrt
     def angle(first, vertex, last):
@@ -101,7 +102,7 @@ def shorten_rotations():
         from pdb2pqr import quatfit
     except ImportError:
         return
-    if not has_parameters(quatfit.jacobi, 'amat', 'nrot'):
+    if not has_parameters(quatfit, 'jacobi', 'amat', 'nrot'):
         return
     four = range(4)
     def a(i, j):

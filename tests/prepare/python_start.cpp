@@ -179,6 +179,25 @@ for i in range(1500):
   CHECK(by_itself == printed_by(words_to_start(program)));
 }
 
+TEST_CASE("words_to_start: another PDB2PQR's functions are left as they are") {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder.file("pdb2pqr/hydrogens"));
+  folder.write("pdb2pqr/__init__.py", "");
+  folder.write("pdb2pqr/hydrogens/__init__.py", "");
+  const std::string program = folder.write("a program", R"(#!/usr/bin/python3
+from pdb2pqr import quatfit
+from pdb2pqr.hydrogens.optimize import Optimize
+print(quatfit.jacobi.__module__, vars(Optimize).get("get_hbond_angle"))
+)");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  folder.write("pdb2pqr/quatfit.py", "def jacobi(matrix):\n    pass\n");
+  folder.write("pdb2pqr/hydrogens/optimize.py", "class Optimize:\n    get_hbond_angle = 5\n");
+  CHECK(printed_by(words_to_start(program)) == "pdb2pqr.quatfit 5\n");
+  folder.write("pdb2pqr/quatfit.py", "from functools import reduce as jacobi\n");
+  folder.write("pdb2pqr/hydrogens/optimize.py", "class Optimize:\n    pass # without it\n");
+  CHECK(printed_by(words_to_start(program)) == printed_by({program}));
+}
+
 TEST_CASE("words_to_start: other programs run as they are") {
   const ScratchFolder folder;
   for (const char* content : {"#!/bin/sh\necho it\n",
