@@ -29,7 +29,8 @@ namespace eval ::espdiff {
         summary {Adds hydrogens, charges and radii to a molecule (an endpoint) by PDB2PQR, a program, with PROPKA's
             protonation states. Structures in files get the same wherever a potential is computed from them. Of a
             molecule in VMD, one location of each atom counts.} \
-        returns {a handle, such as preparation1; `espdiff result` lists what was added, repaired and protonated} \
+        returns {a handle, such as preparation1; `espdiff result` lists what was added, repaired and\
+            protonated; `mol new` reads the file unless its `fits_pdb_columns` is 0} \
         example {espdiff prepare {mol 0 sel protein} -pqr prepared.pqr; mol new prepared.pqr}]
 
     command surface [dict create arguments {molecule} settings surface run ::espdiff::surface \

@@ -47,17 +47,13 @@ namespace eval ::espdiff::gui {
     # The commands that load a molecule as VMD did, by full names, for any working folder.
     proc how_loaded {mol} {
         lassign [molinfo $mol get {filename filetype filespec}] paths types specs
-        variable prepared
         set lines {}
         foreach path $paths type $types spec $specs {
             if {$type eq "espdiffmap"} {
                 lappend lines "# Molecule $mol also had a map that espdiff computed in VMD."
                 continue
             }
-            if {[dict exists $prepared $path]} {
-                set made [string map {\n \\n \r \\r} [dict get $prepared $path]]
-                lappend lines "# The next file was made by: espdiff $made"
-            }
+            lappend lines {*}[how_prepared $path]
             set words [list [::espdiff::full_name $path] type $type {*}$spec waitfor all]
             if {![string match "*mol new*" $lines]} {
                 lappend lines "set mol$mol \[mol new $words\]"
@@ -71,6 +67,13 @@ namespace eval ::espdiff::gui {
             compared, and its files have \[molinfo \$mol$mol get numframes\]; save its frames as a file\
             (File > Save Coordinates), load that instead, and compare again\" }"
         return $lines
+    }
+
+    proc how_prepared {path} {
+        variable prepared
+        if {![dict exists $prepared $path]} { return {} }
+        set made [string map {\n \\n \r \\r} [dict get $prepared $path]]
+        return [list "# The next file was made by: espdiff $made"]
     }
 
     # By molecule: its variable in the script.
@@ -120,6 +123,9 @@ namespace eval ::espdiff::gui {
         set settings [lassign [dict get $steps compare] compare source target]
         # Callbacks of another program are not available.
         if {[llength $settings] % 2 == 0} { set settings [dict remove $settings -command -progress] }
+        foreach endpoint [list $source $target] {
+            if {[dict exists $endpoint file]} { lappend lines {*}[how_prepared [dict get $endpoint file]] }
+        }
         lappend lines "set comparison \[espdiff compare [script_word $source] \\"
         lappend lines "    [script_word $target][option_lines $settings]\]"
         lappend lines {puts [espdiff table $comparison]}

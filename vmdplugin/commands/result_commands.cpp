@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "io/files/atomic_file.h"
 #include "io/files/check_outputs.h"
+#include "io/molecules/write_pqr.h"
 #include "mapping/build_surface.h"
 #include "matrix/matrix_table.h"
 #include "matrix/write_matrix.h"
@@ -58,9 +59,11 @@ nlohmann::ordered_json matrix_result(const MatrixObject& object) {
   return json;
 }
 
-/// What was written, and what PDB2PQR did; without `preparation` where the molecule had charges.
+/// What was written, whether VMD can read it, and what PDB2PQR did; without `preparation` where the molecule had charges.
 nlohmann::ordered_json preparation_result(const PreparationObject& object) {
-  nlohmann::ordered_json json{{"file", object.path}, {"n_atoms", object.state.molecule.size()}};
+  nlohmann::ordered_json json{{"file", object.path},
+                              {"n_atoms", object.state.molecule.size()},
+                              {"fits_pdb_columns", fits_pdb_columns(object.state.molecule)}};
   json["preparation"] =
       object.state.preparation ? preparation_json(*object.state.preparation) : nlohmann::ordered_json(nullptr);
   return json;

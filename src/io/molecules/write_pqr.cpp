@@ -34,33 +34,21 @@ bool fits_coordinate(double x) {
   return x > kLow && x < kHigh && static_cast<float>(std::round(1000 * x) / 1000) == static_cast<float>(x);
 }
 
-/// Whether all atoms fit PDB's columns with blanks between the fields.
-bool fits_columns(const Molecule& molecule) {
-  constexpr std::size_t kMostAtoms = 99999, kMostName = 4, kMostResidueName = 3;
-  constexpr std::int32_t kLow = -999, kHigh = 9999;
-  if (molecule.size() > kMostAtoms) return false;
-  for (const Residue& residue : molecule.residues) {
-    if (residue.name.size() > kMostResidueName || residue.chain.size() > 1 || residue.number < kLow ||
-        residue.number > kHigh)
-      return false;
-  }
-  for (const Atom& atom : molecule.atoms) {
-    if (atom.name.size() > kMostName) return false;
-  }
-  return std::all_of(molecule.positions.begin(), molecule.positions.end(), [](const Vec3d& p) {
-    return fits_coordinate(p.x) && fits_coordinate(p.y) && fits_coordinate(p.z);
-  });
-}
+/// Eight columns with three decimals, or a blank and as many digits as the number needs: VMD and APBS read both.
+std::string coordinate(double x) { return fits_coordinate(x) ? formatted("%8.3f", x) : ' ' + number(x); }
 
-/// Columns 1 to 54, as in a PDB file.
+/// Names and numbers in the columns of a PDB file. Serial numbers begin anew behind the largest that fits.
 std::string pdb_columns(const Molecule& molecule, std::size_t i) {
+  constexpr std::size_t kSerials = 100000;
   const Atom& atom = molecule.atoms[i];
   const Residue& residue = molecule.residues[static_cast<std::size_t>(atom.residue)];
   const std::string name = word(atom.name), chain = residue.chain.empty() ? " " : word(residue.chain);
   const Vec3d& p = molecule.positions[i];
-  return formatted("%-6s%5d %-4s %3s %s%4d%c   %8.3f%8.3f%8.3f", atom.hetero ? "HETATM" : "ATOM",
-                   static_cast<int>(i + 1), (name.size() < 4 ? " " + name : name).c_str(), word(residue.name).c_str(),
-                   chain.c_str(), static_cast<int>(residue.number), residue.insertion_code, p.x, p.y, p.z);
+  return formatted("%-6s%5d %-4s %3s %s%4d%c   ", atom.hetero ? "HETATM" : "ATOM",
+                   static_cast<int>((i + 1) % kSerials), (name.size() < 4 ? " " + name : name).c_str(),
+                   word(residue.name).c_str(), chain.c_str(), static_cast<int>(residue.number),
+                   residue.insertion_code) +
+         coordinate(p.x) + coordinate(p.y) + coordinate(p.z);
 }
 
 /// The same separated by single blanks, for names and numbers of any length.
@@ -78,12 +66,24 @@ std::string free_fields(const Molecule& molecule, std::size_t i) {
 
 }  // namespace
 
+bool fits_pdb_columns(const Molecule& molecule) {
+  constexpr std::size_t kMostName = 4, kMostResidueName = 3;
+  constexpr std::int32_t kLow = -999, kHigh = 9999;
+  return std::all_of(molecule.residues.begin(), molecule.residues.end(),
+                     [](const Residue& residue) {
+                       return residue.name.size() <= kMostResidueName && residue.chain.size() <= 1 &&
+                              residue.number >= kLow && residue.number <= kHigh;
+                     }) &&
+         std::all_of(molecule.atoms.begin(), molecule.atoms.end(),
+                     [](const Atom& atom) { return atom.name.size() <= kMostName; });
+}
+
 void write_pqr(std::ostream& out, const Molecule& molecule) {
   const std::size_t n = molecule.size();
   if (molecule.radii.size() != n || (!molecule.charges.empty() && molecule.charges.size() != n))
     throw InputError(molecule.name + ": " + std::to_string(molecule.radii.size()) + " radii and " +
                      std::to_string(molecule.charges.size()) + " charges for " + std::to_string(n) + " atoms");
-  const bool in_columns = fits_columns(molecule);
+  const bool in_columns = fits_pdb_columns(molecule);
   for (std::size_t i = 0; i < n; ++i) {
     out << (in_columns ? pdb_columns(molecule, i) : free_fields(molecule, i)) << ' '
         << number(molecule.charges.empty() ? 0.0F : molecule.charges[i]) << ' ' << number(molecule.radii[i]) << '\n';

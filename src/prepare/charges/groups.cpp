@@ -160,17 +160,16 @@ void charge_other_ligand(Groups& groups, Molecule& group, const Molecule& molecu
   group = std::move(ligand.molecule);
   const bool agrees = agrees_with_formula(groups, molecule, group, ligand.net_charge, false);
   const std::size_t n_dropped = drop_hydrogens_at_bonds(group, n_given, molecule, residue);
-  const std::string label = residue_label(group.residues.front()),
-                    charge = in_elementary_charges(std::round(ligand.net_charge));
+  const std::optional<int> usual = charge_of_group(group.residues.front().name, group.size());
+  // Gasteiger's charges of phosphates do not sum up to the whole number.
+  const double whole = usual ? *usual : std::round(ligand.net_charge);
+  const std::string label = residue_label(group.residues.front()), charge = in_elementary_charges(whole);
   groups.lines.push_back(
       label + ": " + charge + ", " + std::to_string(ligand.n_hydrogens_added - n_dropped) + " hydrogens added" +
       (ligand.n_hydrogens_replaced == 0 ? std::string()
                                         : " for the file's " + std::to_string(ligand.n_hydrogens_replaced)) +
       ", by Open Babel (Gasteiger's charges, pH " + formatted("%g", ph) +
       (agrees ? "; bonds agree with the file's formula)" : ")"));
-  const std::optional<int> usual = charge_of_group(group.residues.front().name, group.size());
-  // Gasteiger's charges of phosphates do not sum up to the whole number.
-  const double whole = usual ? *usual : std::round(ligand.net_charge);
   const auto n = static_cast<double>(group.size());
   for (float& q : group.charges) q += static_cast<float>((whole - ligand.net_charge) / n);
   if (!usual) {
@@ -178,8 +177,8 @@ void charge_other_ligand(Groups& groups, Molecule& group, const Molecule& molecu
     return;
   }
   if (std::fabs(ligand.net_charge - *usual) <= 0.5) return;
-  groups.warnings.push_back(label + " has " + charge + " by the bonds that Open Babel perceives and usually " +
-                            in_elementary_charges(*usual) +
+  groups.warnings.push_back(label + " has " + in_elementary_charges(std::round(ligand.net_charge)) +
+                            " by the bonds that Open Babel perceives and usually " + charge +
                             ", to which its charges were shifted evenly; a MOL2 file of it would be exact");
 }
 

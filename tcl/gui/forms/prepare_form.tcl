@@ -149,7 +149,7 @@ namespace eval ::espdiff::gui {
         return $running
     }
 
-    # Loads the PQR, which takes the molecule's place in the form.
+    # The PQR takes the molecule's place in the form: loaded, or as a file where VMD would misread it.
     proc finish_preparation {side handle} {
         variable running
         variable preparing
@@ -168,18 +168,27 @@ namespace eval ::espdiff::gui {
         }
         set result [espdiff result $handle]
         espdiff delete $handle
+        set words [preparation_words [dict get $result preparation]]
+        if {[dict get $result fits_pdb_columns]} {
+            show_prepared $side [dict get $result file]
+        } else {
+            array set form [list $side,kind file $side,file [dict get $result file] $side,sel ""]
+            append words "; VMD reads no names as long as the file's, so that the file is chosen instead of a molecule"
+        }
+        foreach other {source target} { update_endpoint $other }
+        show_message $words
+        if {$compares_next} { vmdcon -info "espdiff) $words" }  ;# the comparison's messages follow
+        prepare_next
+    }
+
+    proc show_prepared {side path} {
+        variable form
         set top [molinfo top]
-        set mol [mol new [dict get $result file] type pqr waitfor all]
+        set mol [mol new $path type pqr waitfor all]
         if {$top ne ""} { mol top $top }
         mol off [number_of $form($side,mol)]  ;# the prepared molecule is in the same place
         set form($side,mol) "$mol: [molinfo $mol get name]"
         choose_molecule $side
-        foreach other {source target} { update_endpoint $other }
-        set words [preparation_words [dict get $result preparation]]
-        show_message $words
-        if {$compares_next} { vmdcon -info "espdiff) $words" }  ;# the comparison's messages follow
-        prepare_next
-        return $mol
     }
 
     # A preparation failed or was cancelled: nothing follows it.

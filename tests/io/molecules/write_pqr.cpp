@@ -82,6 +82,48 @@ TEST_CASE("what fits stands in PDB's columns, which VMD reads") {
   CHECK(back.residues[2].chain.empty());
 }
 
+TEST_CASE("coordinates of many digits leave names in PDB's columns, and a blank before each number") {
+  Molecule m = awkward();
+  m.residues = {{"HIS", "A", 49, ' '}, {"ALA", "A", -3, 'B'}, {"NA", "", 7, ' '}};
+  CHECK(fits_pdb_columns(m));
+  std::ostringstream out;
+  write_pqr(out, m);
+  CHECK(out.str().substr(0, 71) == "ATOM      1  N   HIS A  49     69.6681213  33.705  -4.794 -0.4157 1.1\n");
+  const Molecule back = read_back(m);
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    CHECK(back.charges[i] == m.charges[i]);
+    CHECK(back.radii[i] == m.radii[i]);
+    CHECK(back.atoms[i].name == m.atoms[i].name);
+    CHECK(static_cast<Vec3f>(back.positions[i]) == static_cast<Vec3f>(m.positions[i]));
+  }
+}
+
+TEST_CASE("names of more letters than PDB has columns do not fit") {
+  Molecule m = awkward();
+  CHECK_FALSE(fits_pdb_columns(m));
+  m.residues[1] = {"TIP3", "P", 1, ' '};
+  CHECK_FALSE(fits_pdb_columns(m));
+  m.residues[1] = {"TIP", "P", 1, ' '};
+  CHECK(fits_pdb_columns(m));
+  m.residues[1].number = 10000;
+  CHECK_FALSE(fits_pdb_columns(m));
+}
+
+TEST_CASE("serial numbers begin anew behind 99999, and residues stay whole") {
+  Molecule m;
+  m.name = "m";
+  m.residues = {{"ALA", "A", 1, ' '}};
+  const std::size_t n = 100002;
+  m.atoms.assign(n, {"CA", "C", 0, true});
+  for (std::size_t i = 0; i < n; ++i) m.positions.push_back({0.125 * static_cast<double>(i % 1000), 1, 2});
+  m.radii.assign(n, 1);
+  m.charges.assign(n, 0);
+  std::ostringstream out;
+  write_pqr(out, m);
+  CHECK(out.str().find("HETATM99999  CA  ALA A   1     ") != std::string::npos);
+  CHECK(out.str().find("HETATM    1  CA  ALA A   1      15.125") != std::string::npos);
+}
+
 TEST_CASE("a molecule without charges has charges of 0") {
   Molecule m = awkward();
   m.charges.clear();

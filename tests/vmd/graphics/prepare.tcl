@@ -168,6 +168,61 @@ test "a region in VMD's words" {
     espdiff delete $handle
 }
 
+if {[auto_execok obabel] eq ""} {
+    note "SKIPPED: ligands: no Open Babel on PATH"
+} else {
+    proc prepare_with {ligand} {
+        array set ::espdiff::gui::form [list source,kind mol source,sel "protein or resname $ligand" \
+            source,mol "$::target: [molinfo $::target get name]"]
+        ::espdiff::gui::update_endpoint source
+        update
+        [widget source,prepare] invoke
+        wait_until {$::espdiff::gui::running eq ""}
+        update
+    }
+    # Off the grid of 0.001 A, as frames of a trajectory are.
+    set all [atomselect $target all]
+    $all moveby [list [expr {1.0 / 3}] [expr {1.0 / 7}] 0]
+
+    test "a ligand's hydrogens and coordinates of many digits: VMD reads what was prepared" {
+        set before [molinfo num]
+        prepare_with BNZ
+        check_equal "loaded: [message_line]" [molinfo num] [expr {$before + 1}]
+        set mol [lindex [molinfo list] end]
+        set hydrogens [atomselect $mol "resname BNZ and name \"H.*\""]
+        check_equal "hydrogens" [$hydrogens num] 6
+        set given [atomselect $target "protein or resname BNZ"]
+        set prepared [atomselect $mol "not name \"H.*\""]
+        check_equal "the same chain" [lsort -unique [$prepared get chain]] A
+        foreach ours [concat {*}[measure minmax $prepared]] theirs [concat {*}[measure minmax $given]] {
+            check_close "the same place" $ours $theirs 1e-3
+        }
+        foreach selection [list $hydrogens $given $prepared] { $selection delete }
+        mol delete $mol
+    }
+
+    test "names that VMD cannot read: the file takes the molecule's place" {
+        set benzene [atomselect $target "resname BNZ"]
+        $benzene set resname BENZ
+        set before [molinfo num]
+        prepare_with BENZ
+        check_equal "not loaded" [molinfo num] $before
+        check "said: [message_line]" {[string match "*the file is chosen instead of a molecule" [message_line]]}
+        check_equal "a file" $::espdiff::gui::form(source,kind) file
+        check "there" {[file exists $::espdiff::gui::form(source,file)]}
+        check "it is shown" {[winfo ismapped [widget source,browse_map]] && ![winfo ismapped [widget source,charges]]}
+        array set ::espdiff::gui::setting {grid-spacing 2 region {}}
+        [widget compare] invoke
+        wait_until {$::espdiff::gui::running eq ""}
+        set comparison $::espdiff::gui::shown
+        check "compared: [message_line]" {[string match "Poisson-Boltzmann*" [espdiff result $comparison potential label]]}
+        check "the script" {[string match "*espdiff*prepare*-pqr*" [::espdiff::gui::session_text]]}
+        $benzene set resname BNZ
+        $benzene delete
+    }
+    $all delete
+}
+
 test "no callback failed" { check_equal errors $background {} }
 
 espdiff delete all
