@@ -27,6 +27,8 @@ void check_options(const DeformOptions& o) {
   if (!(o.tangential_gain >= 0))
     throw InputError("the tangential gain, " + formatted(o.tangential_gain) +
                      ", is negative; 1 is the plain iteration");
+  if (!(o.momentum >= 0 && o.momentum < 1))
+    throw InputError("the momentum, " + formatted(o.momentum) + ", is not from 0 to below 1; 0.7 is usual");
   if (internal_step(o) > kLargestInternalStep) {
     throw InputError("sigma (1 - mu) times the tangential gain is " + formatted(internal_step(o)) + ", beyond " +
                      formatted(kLargestInternalStep) + " where the iteration becomes unstable; lower one of them");
@@ -94,9 +96,12 @@ ESPDIFF_INLINE void move_lanes(const Iteration& it, std::size_t begin, LaneReadi
   // What is written is not read by another lane.
 #pragma GCC ivdep
   for (std::size_t i = 0; i < kVertexLanes; ++i) {
-    const float x = it.step_tension * laplacian[i].x - it.step_rigidity * r.laplacian_squared[i][0],
-                y = it.step_tension * laplacian[i].y - it.step_rigidity * r.laplacian_squared[i][1],
-                z = it.step_tension * laplacian[i].z - it.step_rigidity * r.laplacian_squared[i][2];
+    const float x = it.step_tension * laplacian[i].x - it.step_rigidity * r.laplacian_squared[i][0] +
+                    it.momentum * (from[i].x - to[i].x),
+                y = it.step_tension * laplacian[i].y - it.step_rigidity * r.laplacian_squared[i][1] +
+                    it.momentum * (from[i].y - to[i].y),
+                z = it.step_tension * laplacian[i].z - it.step_rigidity * r.laplacian_squared[i][2] +
+                    it.momentum * (from[i].z - to[i].z);
     const float old = strength[i];
     const float s = (r.field[i][3] > 0) == (old > 0) ? old * -0.5F : old;
     strength[i] = s;
@@ -150,6 +155,7 @@ void set_steps(Iteration& it, const DeformOptions& options) {
   it.step_external = static_cast<float>(options.sigma * options.mu);
   it.step_tension = static_cast<float>(internal * (1 - options.rho));
   it.step_rigidity = static_cast<float>(internal * options.rho);
+  it.momentum = static_cast<float>(options.momentum);
 }
 
 void iterate_one_by_one(DeformState& state, const DeformOptions& options, const std::string& stage,
@@ -183,7 +189,7 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceMesh& 
                         std::to_string(n) + "; both must be of one topology");
   DeformState state;
   state.positions = mesh.positions;
-  state.moved.resize(n);
+  state.moved = mesh.positions;
   Buffer<Vec4f> laplacians(n), rest_laplacians(options.rest_shape ? n : 0);
   Buffer<float> strengths(n), path_lengths(n, 0.0F);
   Iteration& it = state.iteration;

@@ -19,10 +19,11 @@ struct Iteration {
   const Vec4f* from;   // [vertex]
   const Vec4f* rest;   // [vertex] L of the rest shape; null for none
   Vec4f* laplacian;    // [vertex] L of `from` minus L of the rest shape
-  Vec4f* to;           // [vertex] w: distance moved
+  Vec4f* to;           // [vertex] w: distance moved; before: the positions of the iteration before, at first `from`
   float* path_length;  // [vertex] path length over all iterations
   float* strength;     // [vertex] s: positive while outside, negative while inside, halved at each crossing
   float step_external, step_tension, step_rigidity;  // sigma mu, g sigma (1 - mu)(1 - rho), g sigma (1 - mu) rho
+  float momentum;
   bool tricubic;
 };
 
@@ -34,7 +35,8 @@ ESPDIFF_INLINE void move_vertex(const Iteration& it, std::size_t v) {
   const Vec4f x = it.from[v];
   const Vec4f laplacian = it.laplacian[v];
   const Vec4f laplacian_squared = umbrella(it.topology, it.laplacian, v);
-  Vec3f internal = (it.step_tension * laplacian - it.step_rigidity * laplacian_squared).xyz();
+  const Vec3f internal = (it.step_tension * laplacian - it.step_rigidity * laplacian_squared).xyz() +
+                         it.momentum * (x.xyz() - it.to[v].xyz());
 
   const Vec4f sample = field_at(it, x.xyz());
   float s = it.strength[v];

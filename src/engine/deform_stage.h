@@ -21,6 +21,10 @@ struct DeformOptions {
   /// Measures the internal force from a rest shape (see Engine::deform), so that it resists distortion. Otherwise from
   /// equal edges (the thesis); the mesh then keeps sliding along the surface even if nothing deforms.
   bool rest_shape = false;
+  /// Share of the last iteration's movement that is added to the internal force, 0 to below 1: Polyak's heavy ball,
+  /// USSR Comput. Math. Math. Phys. 4, 1 (1964). What has far to go along the surface arrives in fewer iterations; a
+  /// mean displacement of 1 / (1 - momentum) times as much means the same force.
+  double momentum = 0;
 };
 
 struct DeformReport {

@@ -42,6 +42,7 @@ CompareOptions thesis_options() {
   options.surface.project = false;
   options.surface.cavities = true;
   options.regularize.tangential_gain = options.deform.tangential_gain = 1;
+  options.regularize.momentum = 0;
   options.deform.rest_shape = false;
   options.deform_min_displacement = options.regularize_min_displacement = 1e-3;
   return options;
