@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <set>
 
 #include "base/error.h"
 #include "base/progress.h"
@@ -239,6 +240,55 @@ TEST_CASE("a regularized surface mapped onto itself stays where it is") {
   }
 }
 
+/// Mean length of the umbrella Laplacian, Angstrom.
+double irregularity(const Mesh& mesh) {
+  std::vector<std::set<std::uint32_t>> rings(mesh.positions.size());
+  for (const auto& t : mesh.triangles) {
+    for (const std::uint32_t a : t) {
+      for (const std::uint32_t b : t) {
+        if (a != b) rings[a].insert(b);
+      }
+    }
+  }
+  double sum = 0;
+  for (std::size_t v = 0; v < rings.size(); ++v) {
+    Vec3d mean;
+    for (const std::uint32_t u : rings[v])
+      mean += (1.0 / static_cast<double>(rings[v].size())) * static_cast<Vec3d>(mesh.positions[u]);
+    sum += norm(mean - static_cast<Vec3d>(mesh.positions[v]));
+  }
+  return sum / static_cast<double>(rings.size());
+}
+
+TEST_CASE("momentum regularizes in half the iterations") {
+  const auto path = real_input("ubq/ubq.pqr");
+  const AtomSet atoms = path ? read_atoms(*path) : random_cloud(400, 130);
+  for (const auto& engine : back_ends()) {
+    const auto uploaded = upload(*engine, atoms);
+    const auto density = engine->density(uploaded, 1.0);
+    const auto surface = engine->project(engine->isosurface(density, 0.5F), uploaded, 0.5F, 0.5);
+    const auto field = engine->density_field(density, 0.5F);
+    DeformReport reports[2];
+    double left[2];
+    for (const bool with_momentum : {false, true}) {
+      DeformOptions options;
+      options.mu = 0.5;
+      options.tangential_gain = 10;
+      options.max_iterations = 500;
+      options.min_displacement_A = with_momentum ? 7.5e-3 : 2.5e-3;
+      if (with_momentum) options.momentum = 0.7;
+      const auto mesh = engine->deform(surface, field, options, "regularize", {}, &reports[with_momentum]);
+      left[with_momentum] = irregularity(engine->download(engine->project(mesh, uploaded, 0.5F, 0.5)));
+    }
+    std::printf("regularization, %s: %d iterations to an irregularity of %.5f A, with momentum %d to %.5f A\n",
+                engine->back_end().c_str(), reports[0].iterations, left[0], reports[1].iterations, left[1]);
+    CHECK(reports[1].converged);
+    CHECK(2 * reports[1].iterations <= reports[0].iterations + 5);  // looked at after every fifth
+    CHECK(left[1] < left[0]);
+    CHECK(left[1] < 0.5 * irregularity(engine->download(surface)));
+  }
+}
+
 TEST_CASE("with a rest shape a surface mapped onto itself does not creep") {
   const AtomSet atoms = random_cloud(250, 131);
   for (const auto& engine : back_ends()) {
@@ -287,6 +337,10 @@ TEST_CASE("deform: parameters out of range are refused with the value") {
           "the tangential gain, -1, is negative; 1 is the plain iteration");
     CHECK(message([](DeformOptions& o) { o.tangential_gain = 100; }).find("where the iteration becomes unstable") !=
           std::string::npos);
+    CHECK(message([](DeformOptions& o) { o.momentum = 1; }) ==
+          "the momentum, 1, is not from 0 to below 1; 0.7 is usual");
+    message([](DeformOptions& o) { o.momentum = -0.1; });
+    message([&](DeformOptions& o) { o.momentum = nan; });
     message([&](DeformOptions& o) { o.tangential_gain = nan; });
     message([&](DeformOptions& o) { o.sigma = nan; });
     message([&](DeformOptions& o) { o.mu = nan; });

@@ -118,6 +118,7 @@ OracleResult deform_oracle(const Mesh& mesh, const FieldOracle& field, const Def
     result.closest_call[v] = std::fabs(value);
   }
   const std::vector<Vec3d> rest = umbrella(result.positions);
+  std::vector<Vec3d> last(n);  // movement
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     std::vector<Vec3d> l = umbrella(result.positions);
     for (std::size_t v = 0; v < n && options.rest_shape; ++v) l[v] = l[v] - rest[v];
@@ -130,10 +131,11 @@ OracleResult deform_oracle(const Mesh& mesh, const FieldOracle& field, const Def
         was_inside[v] = !was_inside[v];
       }
       const Vec3d normal = (1 / norm(sample.gradient)) * sample.gradient;
-      const Vec3d internal = (1 - options.rho) * l[v] - options.rho * l2[v];
-      const Vec3d tangential = internal - dot(internal, normal) * normal;
-      result.positions[v] +=
-          options.sigma * (options.mu * strength[v] * normal + (1 - options.mu) * options.tangential_gain * tangential);
+      const Vec3d internal = options.sigma * (1 - options.mu) * options.tangential_gain *
+                                 ((1 - options.rho) * l[v] - options.rho * l2[v]) +
+                             options.momentum * last[v];
+      last[v] = options.sigma * options.mu * strength[v] * normal + internal - dot(internal, normal) * normal;
+      result.positions[v] += last[v];
     }
   }
   return result;
@@ -205,23 +207,27 @@ TEST_CASE("iterations on a real surface equal those of a serial double-precision
   check_against_oracle(read_atoms(*path), "1AJJ");
 }
 
-TEST_CASE("each force alone, a gain and a rest shape agree with the serial form") {
+TEST_CASE("each force alone, a gain, momentum and a rest shape agree with the serial form") {
   const AtomSet atoms = random_cloud(100, 141);
   for (const auto& engine : back_ends()) {
     for (const double mu : {0.0, 0.5, 1.0}) {
       for (const double gain : {0.0, 1.0, 3.0}) {
         for (const bool rest_shape : {false, true}) {
-          DeformOptions options;
-          options.mu = mu;
-          options.tangential_gain = gain;
-          options.rest_shape = rest_shape;
-          options.max_iterations = 5;
-          CAPTURE(mu);
-          CAPTURE(gain);
-          CAPTURE(rest_shape);
-          const Comparison c = compare_to_oracle(*engine, atoms, options);
-          CHECK(c.worst < 1e-5);
-          CHECK(c.n_undecided * 300 <= c.n);
+          for (const double momentum : {0.0, 0.7}) {
+            DeformOptions options;
+            options.mu = mu;
+            options.tangential_gain = gain;
+            options.rest_shape = rest_shape;
+            options.momentum = momentum;
+            options.max_iterations = 5;
+            CAPTURE(mu);
+            CAPTURE(gain);
+            CAPTURE(rest_shape);
+            CAPTURE(momentum);
+            const Comparison c = compare_to_oracle(*engine, atoms, options);
+            CHECK(c.worst < 1e-5);
+            CHECK(c.n_undecided * 300 <= c.n);
+          }
         }
       }
     }
