@@ -215,7 +215,7 @@ TEST_CASE("OUT.json echoes all options under their names") {
   CHECK(json["interpolation"] == "tricubic");
   CHECK(json["mu"] == 0.75);
   CHECK(json["min_displacement"] == 5e-4);
-  CHECK(json["regularize_min_displacement"] == 2.5e-3);
+  CHECK(json["regularize_min_displacement"] == 7.5e-3);
   CHECK(json["rest_shape"] == "source");
   CHECK(json["round_trip"] == true);
   CHECK(json["cavities"] == false);
