@@ -59,7 +59,8 @@ nlohmann::ordered_json matrix_result(const MatrixObject& object) {
   return json;
 }
 
-/// What was written, whether VMD can read it, and what PDB2PQR did; without `preparation` where the molecule had charges.
+/// What was written, whether VMD can read it, and what PDB2PQR did; without `preparation` where the molecule had
+/// charges.
 nlohmann::ordered_json preparation_result(const PreparationObject& object) {
   nlohmann::ordered_json json{{"file", object.path},
                               {"n_atoms", object.state.molecule.size()},

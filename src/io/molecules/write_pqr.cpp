@@ -44,10 +44,9 @@ std::string pdb_columns(const Molecule& molecule, std::size_t i) {
   const Residue& residue = molecule.residues[static_cast<std::size_t>(atom.residue)];
   const std::string name = word(atom.name), chain = residue.chain.empty() ? " " : word(residue.chain);
   const Vec3d& p = molecule.positions[i];
-  return formatted("%-6s%5d %-4s %3s %s%4d%c   ", atom.hetero ? "HETATM" : "ATOM",
-                   static_cast<int>((i + 1) % kSerials), (name.size() < 4 ? " " + name : name).c_str(),
-                   word(residue.name).c_str(), chain.c_str(), static_cast<int>(residue.number),
-                   residue.insertion_code) +
+  return formatted("%-6s%5d %-4s %3s %s%4d%c   ", atom.hetero ? "HETATM" : "ATOM", static_cast<int>((i + 1) % kSerials),
+                   (name.size() < 4 ? " " + name : name).c_str(), word(residue.name).c_str(), chain.c_str(),
+                   static_cast<int>(residue.number), residue.insertion_code) +
          coordinate(p.x) + coordinate(p.y) + coordinate(p.z);
 }
 

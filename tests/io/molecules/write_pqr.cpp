@@ -88,7 +88,7 @@ TEST_CASE("coordinates of many digits leave names in PDB's columns, and a blank 
   CHECK(fits_pdb_columns(m));
   std::ostringstream out;
   write_pqr(out, m);
-  CHECK(out.str().substr(0, 71) == "ATOM      1  N   HIS A  49     69.6681213  33.705  -4.794 -0.4157 1.1\n");
+  CHECK(out.str().substr(0, 70) == "ATOM      1  N   HIS A  49     69.6681213  33.705  -4.794 -0.4157 1.1\n");
   const Molecule back = read_back(m);
   for (std::size_t i = 0; i < m.size(); ++i) {
     CHECK(back.charges[i] == m.charges[i]);
@@ -115,7 +115,7 @@ TEST_CASE("serial numbers begin anew behind 99999, and residues stay whole") {
   m.residues = {{"ALA", "A", 1, ' '}};
   const std::size_t n = 100002;
   m.atoms.assign(n, {"CA", "C", 0, true});
-  for (std::size_t i = 0; i < n; ++i) m.positions.push_back({0.125 * static_cast<double>(i % 1000), 1, 2});
+  for (std::size_t i = 0; i < n; ++i) m.positions.push_back({i < 50000 ? 0.0 : 15.125, 1, 2});
   m.radii.assign(n, 1);
   m.charges.assign(n, 0);
   std::ostringstream out;
