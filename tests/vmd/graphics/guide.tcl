@@ -17,7 +17,7 @@ test "linked views from the console" {
 }
 test "the numbers that the guide names" {
     check_close "mean" [espdiff result $tim mean_abs_difference] 0.84 0.01
-    check_close "sign" [expr {100 * [espdiff result $tim sign_change_area_fraction]}] 29.7 0.005
+    check_close "sign" [expr {100 * [espdiff result $tim sign_change_area_fraction]}] 29.9 0.005
 }
 test "a picture, and the files of the result" {
     eval [block guide.md "guide: picture"]

@@ -72,6 +72,7 @@ test "a figure is as large as on the screen, fades to the same grey, and names t
     color Display Background white
     axes location off
     display projection Orthographic
+    display depthcue off  ;# it pales the rims
     display resetview
     foreach mol [list $source $target] { mol off $mol }
     rotate y by 50
