@@ -93,7 +93,10 @@ void read_names(const Json& json, RunRecord& record) {
     std::string* const name = role.rfind("source", 0) == 0 ? &record.source_name : &record.target_name;
     if (role != "source" && role != "target" && role != "source_file" && role != "target_file") continue;
     // Of a state that is kept beside the result, the file that it was made of.
-    if (name->empty() || role.size() > 6) *name = name_of_state(input.at("path"));
+    if (!name->empty() && role.size() == 6) continue;
+    *name = name_of_state(input.at("path"));
+    const int model = input.value("model", 1);
+    if (model != 1) *name += " model " + std::to_string(model);
   }
 }
 

@@ -234,8 +234,10 @@ std::string name_of_input(const PairFiles& files, const std::string& role) {
   for (const RecordJson& input : files.record.value("inputs", RecordJson::array())) {
     const std::string its_role = text_of(input, "role");
     // A state that was prepared is kept beside the result; the user's file stands behind it.
-    if (its_role == role || its_role == role + "_file")
-      name = std::filesystem::path(text_of(input, "path")).filename().string();
+    if (its_role != role && its_role != role + "_file") continue;
+    name = std::filesystem::path(text_of(input, "path")).filename().string();
+    const std::size_t model = Record(input).count("/model");
+    if (model > 1) name += ", model " + std::to_string(model);
   }
   return name;
 }

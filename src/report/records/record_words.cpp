@@ -16,6 +16,17 @@ namespace espdiff {
 
 using Json = Record::Json;
 
+std::string state_in_words(const Record& record, const std::string& side) {
+  const std::string name = record.text("/names/" + side);
+  for (const Json& json : record.at("/inputs")) {
+    const Record input(json);
+    const std::size_t model = input.count("/model");
+    if (model > 1 && (input.text("/role") == side || input.text("/role") == side + "_file"))
+      return name + ", model " + std::to_string(model);
+  }
+  return name;
+}
+
 std::string paired_in_words(const Record& record) {
   std::string text = counted(record.count("/n_paired_atoms"), "atom") + ", by " + record.text("/superposition/pairing");
   const std::size_t n_substituted = record.count("/superposition/n_substituted_residues");

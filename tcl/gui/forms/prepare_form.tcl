@@ -172,7 +172,7 @@ namespace eval ::espdiff::gui {
         if {[dict get $result fits_pdb_columns]} {
             show_prepared $side [dict get $result file]
         } else {
-            array set form [list $side,kind file $side,file [dict get $result file] $side,sel ""]
+            array set form [list $side,kind file $side,file [dict get $result file]]
             append words "; VMD reads no names as long as the file's, so that the file is chosen instead of a molecule"
         }
         foreach other {source target} { update_endpoint $other }

@@ -117,6 +117,22 @@ TEST_CASE("show survives records with other types in every place") {
   }
 }
 
+TEST_CASE("two models of one file are told apart") {
+  const ScratchFolder folder;
+  const std::string both = folder.write("both.pqr", "MODEL        1\n" + row_of_atoms(12) + "ENDMDL\nMODEL        2\n" +
+                                                        row_of_atoms(12, 0.25) + "ENDMDL\n");
+  const Outcome answer = run_espdiff("compare " + both + " " + both + " --target-model 2 --potential none --exit-zero -o " +
+                                     folder.file("out"));
+  REQUIRE_MESSAGE(answer.status == 0, answer.err);
+  CHECK_MESSAGE(contains(answer.out, "both.pqr\nTarget "), answer.out);
+  CHECK_MESSAGE(contains(answer.out, "both.pqr, model 2\n"), answer.out);
+  CHECK(contains(run_espdiff("show " + folder.file("out")).out, "both.pqr, model 2\n"));
+  REQUIRE(run_espdiff("report " + folder.file("out")).status == 0);
+  const std::string page = read_file(folder.file("out.html"));
+  CHECK(contains(page, "both.pqr, model 2 against both.pqr"));
+  CHECK(contains(page, "Target: both.pqr, model 2"));
+}
+
 TEST_CASE("what is no comparison is refused in one line") {
   const ScratchFolder folder;
   const Outcome other = run_espdiff("show " + folder.write("out.json", "{}"));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <gemmi/cif.hpp>    // for read_memory
 #include <gemmi/mmcif.hpp>  // for make_structure
 #include <gemmi/numb.hpp>   // for as_number
@@ -223,7 +224,20 @@ long row_line(const std::string& text, const gemmi::cif::Item& item, std::size_t
   return first;
 }
 
+/// Two other kinds of CIF have no atoms of a macromolecule.
+void refuse_other_kinds(const std::string& path, const std::string& text) {
+  const std::filesystem::path name = std::filesystem::path(path).filename();
+  if (text.find("_atom_site_fract_x") != std::string::npos)
+    throw InputError(path + ": is the CIF of a crystal of small molecules, whose atoms lie in fractions of its cell; `obabel " +
+                     name.string() + " -O " + std::filesystem::path(name).replace_extension(".mol2").string() +
+                     "` writes them with charges; give that");
+  if (text.find("_chem_comp_atom.") != std::string::npos)
+    throw InputError(path + ": describes chemical components (_chem_comp_atom), no structure; give a structure that "
+                            "contains them, or a MOL2 file: `obabel LIGAND.sdf -O LIGAND.mol2` writes one");
+}
+
 void check_atom_site(const std::string& path, const std::string& text, gemmi::cif::Block& block) {
+  if (block.items.empty()) refuse_other_kinds(path, text);
   for (const char* column : {"id", "type_symbol", "label_asym_id", "Cartn_x", "Cartn_y", "Cartn_z", "auth_seq_id"}) {
     // PyMOL writes no numbers of authors.
     const bool has_other = column == std::string_view("auth_seq_id") && block.find_values("_atom_site.label_seq_id");
