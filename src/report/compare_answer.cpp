@@ -119,7 +119,7 @@ Lines joined_notes(const Record& record) {
 
 /// Both states, each with where its charges are from; these notes are taken away.
 Lines states_in_words(const Record& record, Lines& notes) {
-  Lines lines = {{"Source", state_in_words(record, "source")}, {"Target", state_in_words(record, "target")}};
+  Lines lines = {{"Source", input_in_words(record, "source")}, {"Target", input_in_words(record, "target")}};
   for (const auto& [label, text] : notes) {
     const std::string added = (text.rfind("of ", 0) == 0 ? "; charges " : "; ") + text;  // of a file, by a program
     if (label == "Charges, source") lines[0].second += added;

@@ -318,7 +318,7 @@ void print_verdict(std::ostream& out, const Record& record) {
 
 void print_table(std::ostream& out, const Json& json) {
   const Record record(json);
-  out << "Source  " << state_in_words(record, "source") << "\nTarget  " << state_in_words(record, "target") << "\n\n";
+  out << "Source  " << input_in_words(record, "source") << "\nTarget  " << input_in_words(record, "target") << "\n\n";
   print_superposition(out, record);
   print_metrics(out, record);
   print_offsets(out, record);

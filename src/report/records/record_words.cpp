@@ -16,7 +16,7 @@ namespace espdiff {
 
 using Json = Record::Json;
 
-std::string state_in_words(const Record& record, const std::string& side) {
+std::string input_in_words(const Record& record, const std::string& side) {
   const std::string name = record.text("/names/" + side);
   for (const Json& json : record.at("/inputs")) {
     const Record input(json);

@@ -11,7 +11,7 @@ class Record;
 
 /// A state's file as it was given, with its model unless that is the first: "1d3z.pdb, model 2".
 /// @param side "source" or "target"
-std::string state_in_words(const Record& record, const std::string& side);
+std::string input_in_words(const Record& record, const std::string& side);
 /// "4844 atoms, by sequence alignment (2 of 315 residues substituted)". @pre atoms are paired
 std::string paired_in_words(const Record& record);
 /// Labels and texts: which chains were compared, unless there is one of one name; how they moved against one another;

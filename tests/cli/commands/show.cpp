@@ -121,8 +121,8 @@ TEST_CASE("two models of one file are told apart") {
   const ScratchFolder folder;
   const std::string both = folder.write("both.pqr", "MODEL        1\n" + row_of_atoms(12) + "ENDMDL\nMODEL        2\n" +
                                                         row_of_atoms(12, 0.25) + "ENDMDL\n");
-  const Outcome answer = run_espdiff("compare " + both + " " + both + " --target-model 2 --potential none --exit-zero -o " +
-                                     folder.file("out"));
+  const Outcome answer = run_espdiff("compare " + both + " " + both +
+                                     " --target-model 2 --potential none --exit-zero -o " + folder.file("out"));
   REQUIRE_MESSAGE(answer.status == 0, answer.err);
   CHECK_MESSAGE(contains(answer.out, "both.pqr\nTarget "), answer.out);
   CHECK_MESSAGE(contains(answer.out, "both.pqr, model 2\n"), answer.out);

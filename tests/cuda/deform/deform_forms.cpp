@@ -73,7 +73,7 @@ struct Run {
         path_lengths(mesh.n_vertices(), 0.0F),
         strengths(mesh.n_vertices(), 1.0F) {
     state.positions = mesh.positions;
-    state.moved.resize(mesh.n_vertices());
+    state.moved = mesh.positions;
     Iteration& it = state.iteration;
     it.topology = mesh.view();
     it.lattice = field.lattice;
@@ -126,6 +126,7 @@ TEST_CASE("vertices that move together have the bits of single ones") {
   DeformOptions options;
   options.max_iterations = 7;
   options.min_displacement_A = 0;
+  options.momentum = 0.7;
   Run together(mesh, field, options), single(mesh, field, options);
   espdiff::DeformReport report;
   iterate_one_by_one(together.state, options, "deform", {}, report);

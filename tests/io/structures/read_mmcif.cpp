@@ -109,9 +109,10 @@ TEST_CASE("read_mmcif: bad syntax, no atoms, missing columns, missing model") {
   CHECK(mmcif_error("data_X\nloop_\n_atom_site_label\n_atom_site_fract_x\nC1 0.25\n") ==
         "a.cif: is the CIF of a crystal of small molecules, whose atoms lie in fractions of its cell; `obabel a.cif -O "
         "a.mol2` writes them with charges; give that");
-  CHECK(mmcif_error("data_ATP\nloop_\n_chem_comp_atom.comp_id\n_chem_comp_atom.atom_id\nATP PG\n") ==
-        "a.cif: describes chemical components (_chem_comp_atom), no structure; give a structure that contains them, or a "
-        "MOL2 file: `obabel LIGAND.sdf -O LIGAND.mol2` writes one");
+  CHECK(
+      mmcif_error("data_ATP\nloop_\n_chem_comp_atom.comp_id\n_chem_comp_atom.atom_id\nATP PG\n") ==
+      "a.cif: describes chemical components (_chem_comp_atom), no structure; give a structure that contains them, or a "
+      "MOL2 file: `obabel LIGAND.sdf -O LIGAND.mol2` writes one");
   std::string without = kMmcifHead + "ATOM 1 N N . ALA A ? 1.0 2.0 3.0 1.0 5 7 X 1\n";
   without.replace(without.find("auth_seq_id"), 11, "auth_seq_ix");
   CHECK(mmcif_error(without).find("a.cif: mmCIF without the column _atom_site.auth_seq_id;") == 0);
