@@ -24,6 +24,10 @@ std::string stem(const std::string& path) {
   return name.stem().string();
 }
 
+std::string name_of(const StateFile& state) {
+  return stem(state.path) + (state.model == 1 ? "" : "-model" + std::to_string(state.model));
+}
+
 bool ends_with(const std::string& text, const std::string& ending) {
   return text.size() > ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
@@ -64,13 +68,12 @@ std::string result_prefix(const std::string& given) {
   return given;
 }
 
-std::string output_prefix(const std::string& given, bool overwrite, const std::string& source,
-                          const std::string& target) {
+std::string output_prefix(const std::string& given, bool overwrite, const StateFile& source, const StateFile& target) {
   std::error_code ignored;
   const bool is_folder = given.empty() || given.back() == '/' || fs::is_directory(given, ignored);
   if (is_folder) {
     if (!given.empty()) make_folder(given);
-    const std::string named = (fs::path(given) / (stem(source) + '_' + stem(target))).string();
+    const std::string named = (fs::path(given) / (name_of(source) + '_' + name_of(target))).string();
     return overwrite ? named : free_prefix(named);
   }
   const std::string picture = kPictureEnding;

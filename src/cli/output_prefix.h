@@ -14,15 +14,21 @@ void refuse_existing(const std::string& prefix, const std::string& picture = "")
 /// A prefix that no result has: the given one, or PREFIX_2, PREFIX_3, ...
 std::string free_prefix(const std::string& prefix);
 
+/// A state's structure as it was typed.
+struct StateFile {
+  std::string path;
+  int model = 1;
+};
+
 /// The prefix of OUT.json, OUT.vtp and OUT.residues.csv.
 /// @param given  as typed: a prefix, one of the files that will be written (x of `x.json`, `x.png`), a folder (an
 /// existing one,
 ///               or a name with a slash at its end), which is made if it is missing; or empty for the working folder
 /// @param overwrite  whether a result of this name may be replaced; otherwise a name that was not typed is
 /// free_prefix()
-/// @param source, target  the structures, whose names without folder and ending make SOURCE_TARGET in a folder
-std::string output_prefix(const std::string& given, bool overwrite, const std::string& source,
-                          const std::string& target);
+/// @param source, target  the structures, whose names without folder and ending make SOURCE_TARGET in a folder, with
+/// the number of a model that is not the first: 1d3z_1d3z-model2
+std::string output_prefix(const std::string& given, bool overwrite, const StateFile& source, const StateFile& target);
 
 /// The file that a verb writes where none is named: "1ake.pqr" of data/1ake.pdb.gz, in the working folder.
 std::string output_file(const std::string& input, const std::string& ending);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/molecule/structure_options.h"
 #include "engine/engine.h"
 #include "prepare/input_files.h"
 #include "prepare/surface_radii.h"
@@ -77,8 +78,8 @@ std::vector<Variant> read_variants(const MatrixStudy& study, int n_threads, cons
     variant.group = study.variants[i].group;
     variant.inputs = std::move(state.inputs);
     InputFile& structure = variant.inputs.front();
-    if (structure.read_with && structure.read_with->model > 1)
-      structure.path += ", model " + std::to_string(structure.read_with->model);
+    if (structure.read_with)
+      structure.path = with_model(structure.path, static_cast<std::size_t>(structure.read_with->model));
     structure.read_with.reset();
     variant.inputs.insert(variant.inputs.end(), state.map_inputs.begin(), state.map_inputs.end());
     variant.origin = state.loaded;

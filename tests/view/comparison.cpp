@@ -116,7 +116,7 @@ TEST_CASE("states of VMD are named by their file and frame, kept ones by what th
   CHECK(read_run_record(vtp).source_name == "1abc.pdb");
   json["inputs"].back()["model"] = 3;
   scratch.write("pair.json", json.dump());
-  CHECK(read_run_record(vtp).source_name == "1abc.pdb model 3");
+  CHECK(read_run_record(vtp).source_name == "1abc.pdb, model 3");
 }
 
 TEST_CASE("a file that is not a record is refused") {

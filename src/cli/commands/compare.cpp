@@ -124,10 +124,15 @@ double total_seconds(const CompareResult& result) {
   return 0;
 }
 
+/// The prefix of the results of what was typed.
+std::string prefix_of(const CompareArguments& a, bool overwrite) {
+  return output_prefix(a.typed_output, overwrite, {a.source, a.source_model}, {a.target, a.target_model});
+}
+
 /// What was typed, with a change.
 TypedWords words_of(const CompareArguments& a, const WayOn& way, const Context& context) {
   TypedWords words = with_options(context.words, way.options);
-  if (!a.overwrite && output_prefix(a.typed_output, false, a.source, a.target) == a.output)
+  if (!a.overwrite && prefix_of(a, false) == a.output)
     words = with_options(words, {{"overwrite", "", true}});
   return way.exchanges ? exchanged(words, a.source, a.target) : words;
 }
@@ -264,8 +269,7 @@ Verb add_compare(CLI::App& app) {
   return {parser, [arguments](const Context& context) {
             arguments->typed_output = arguments->output;
             if (is_picture(arguments->output)) arguments->picture = arguments->output;
-            arguments->output =
-                output_prefix(arguments->output, arguments->overwrite, arguments->source, arguments->target);
+            arguments->output = prefix_of(*arguments, arguments->overwrite);
             return compare_verb(*arguments, context);
           }};
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/molecule/structure_options.h"
 #include "io/files/read_input.h"
 #include "io/files/sha256.h"
 #include "io/structures/structure_file.h"
@@ -94,9 +95,7 @@ void read_names(const Json& json, RunRecord& record) {
     if (role != "source" && role != "target" && role != "source_file" && role != "target_file") continue;
     // Of a state that is kept beside the result, the file that it was made of.
     if (!name->empty() && role.size() == 6) continue;
-    *name = name_of_state(input.at("path"));
-    const int model = input.value("model", 1);
-    if (model != 1) *name += " model " + std::to_string(model);
+    *name = with_model(name_of_state(input.at("path")), input.value("model", std::size_t{1}));
   }
 }
 

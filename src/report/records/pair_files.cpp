@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/molecule/structure_options.h"
 #include "base/text/citation.h"
 #include "base/text/formats.h"
 #include "io/files/read_input.h"
@@ -235,9 +236,7 @@ std::string name_of_input(const PairFiles& files, const std::string& role) {
     const std::string its_role = text_of(input, "role");
     // A state that was prepared is kept beside the result; the user's file stands behind it.
     if (its_role != role && its_role != role + "_file") continue;
-    name = std::filesystem::path(text_of(input, "path")).filename().string();
-    const std::size_t model = Record(input).count("/model");
-    if (model > 1) name += ", model " + std::to_string(model);
+    name = with_model(std::filesystem::path(text_of(input, "path")).filename().string(), Record(input).count("/model"));
   }
   return name;
 }

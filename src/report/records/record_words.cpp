@@ -7,6 +7,7 @@
 #include "align/compared_chains.h"
 #include "align/geometry/chain_motions.h"
 #include "base/formatted.h"
+#include "base/molecule/structure_options.h"
 #include "base/not_a_number.h"
 #include "report/records/metrics.h"
 #include "report/records/record.h"
@@ -20,9 +21,8 @@ std::string input_in_words(const Record& record, const std::string& side) {
   const std::string name = record.text("/names/" + side);
   for (const Json& json : record.at("/inputs")) {
     const Record input(json);
-    const std::size_t model = input.count("/model");
-    if (model > 1 && (input.text("/role") == side || input.text("/role") == side + "_file"))
-      return name + ", model " + std::to_string(model);
+    if (input.text("/role") == side || input.text("/role") == side + "_file")
+      return with_model(name, input.count("/model"));
   }
   return name;
 }

@@ -131,6 +131,10 @@ TEST_CASE("two models of one file are told apart") {
   const std::string page = read_file(folder.file("out.html"));
   CHECK(contains(page, "both.pqr, model 2 against both.pqr"));
   CHECK(contains(page, "Target: both.pqr, model 2"));
+  const std::string many = folder.file("many/");
+  REQUIRE(run_espdiff("compare " + both + " " + both + " --target-model 2 --potential none --exit-zero -o " + many)
+              .status == 0);
+  CHECK(std::filesystem::exists(many + "both_both-model2.json"));
 }
 
 TEST_CASE("what is no comparison is refused in one line") {

@@ -226,11 +226,10 @@ long row_line(const std::string& text, const gemmi::cif::Item& item, std::size_t
 
 /// Two other kinds of CIF have no atoms of a macromolecule.
 void refuse_other_kinds(const std::string& path, const std::string& text) {
-  const std::filesystem::path name = std::filesystem::path(path).filename();
   if (text.find("_atom_site_fract_x") != std::string::npos)
     throw InputError(
         path + ": is the CIF of a crystal of small molecules, whose atoms lie in fractions of its cell; `obabel " +
-        name.string() + " -O " + std::filesystem::path(name).replace_extension(".mol2").string() +
+        path + " -O " + std::filesystem::path(path).replace_extension(".mol2").string() +
         "` writes them with charges; give that");
   if (text.find("_chem_comp_atom.") != std::string::npos)
     throw InputError(path +
