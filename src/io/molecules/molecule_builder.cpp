@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "base/molecule/water.h"
 #include "io/molecules/elements.h"
+#include "io/molecules/select_atoms.h"
 
 namespace espdiff {
 namespace {
@@ -160,8 +161,7 @@ void MoleculeBuilder::add(const AtomEntry& entry, double charge, double radius) 
 Molecule MoleculeBuilder::finish() {
   if (molecule_.atoms.empty()) {
     if (n_water_ + n_hetero_ == 0) throw InputError(path_ + ": has no atoms; give a structure with atoms");
-    throw InputError(path_ + ": no atoms are left: " + std::to_string(n_water_) + " are water and " +
-                     std::to_string(n_hetero_) + " are HETATM records that were not asked for; include them");
+    refuse_left_out(path_, n_water_, n_hetero_);
   }
   return std::move(molecule_);
 }

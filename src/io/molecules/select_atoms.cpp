@@ -179,15 +179,30 @@ Molecule keep_atoms(const Molecule& molecule, const std::vector<bool>& keep) {
   return kept;
 }
 
+void refuse_left_out(const std::string& name, std::size_t n_water, std::size_t n_hetero) {
+  Message text = name + ": no atoms are left: ";
+  NextCommand next;
+  const auto add = [&](std::size_t n, const char* kind, const char* keeps) {
+    if (n == 0) return;
+    if (!next.options.empty()) text += " and ";
+    text += std::to_string(n) + " are " + kind + ", which " + switched_on(keeps) + " keeps";
+    next.options.push_back({keeps, "", true});
+  };
+  add(n_water, "water", "water");
+  add(n_hetero, "HETATM records", "hetero");
+  throw InputError(text.set_next(next));
+}
+
 Molecule keep_kinds(const Molecule& molecule, const StructureOptions& options) {
   std::vector<bool> keep;
+  std::size_t n_water = 0;
   for (const Atom& atom : molecule.atoms) {
     const bool water = is_water_name(molecule.residues[static_cast<std::size_t>(atom.residue)].name);
     keep.push_back(water ? options.include_water : options.include_hetero || !atom.hetero);
+    if (water) ++n_water;
   }
   if (std::find(keep.begin(), keep.end(), true) == keep.end())
-    throw InputError(molecule.name + ": no atoms are left: all " + std::to_string(molecule.size()) +
-                     " are water, or HETATM records that were not asked for; include them");
+    refuse_left_out(molecule.name, n_water, molecule.size() - n_water);
   return keep_atoms(molecule, keep);
 }
 

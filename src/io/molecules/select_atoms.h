@@ -28,6 +28,9 @@ std::string describe_chains(const Molecule& molecule);
 /// The molecule without the other atoms, and without residues that have none left.
 Molecule keep_atoms(const Molecule& molecule, const std::vector<bool>& keep);
 
+/// @throws InputError, with the options that keep these atoms
+[[noreturn]] void refuse_left_out(const std::string& name, std::size_t n_water, std::size_t n_hetero);
+
 /// The part of a molecule that the options of reading keep: without water, without HETATM records.
 Molecule keep_kinds(const Molecule& molecule, const StructureOptions& options);
 

@@ -35,7 +35,8 @@ class ModelSplitter {
       case Record::kAtom: add_atom({line, number, has_end}); break;
       case Record::kModel:
         models_.emplace_back();
-        has_model_records_ = is_open_ = is_inside_ = true;
+        ++n_model_records_;
+        is_open_ = is_inside_ = true;
         break;
       case Record::kEndModel: is_open_ = is_inside_ = false; break;
       case Record::kEnd:
@@ -47,7 +48,12 @@ class ModelSplitter {
   }
 
   std::vector<AtomModel> finish() {
-    if (has_model_records_ && first_outside_ > 0) {
+    // Behind the atoms, Rosetta's table of scores has a line "model 1".
+    if (is_inside_ && models_.back().empty()) {
+      models_.pop_back();
+      --n_model_records_;
+    }
+    if (n_model_records_ > 0 && first_outside_ > 0) {
       throw FormatError(path_, first_outside_,
                         "an atom outside of MODEL ... ENDMDL (" + in_quotes(trimmed(first_outside_text_)) +
                             "), in a file that has MODEL records; move it into a model, or "
@@ -77,7 +83,7 @@ class ModelSplitter {
 
   /// Parts of one size are frames. Parts of different size may be one molecule in pieces or several molecules: unclear.
   void check_parts_around_end() const {
-    if (split_by_end_ == 0 || has_model_records_) return;
+    if (split_by_end_ == 0 || n_model_records_ > 0) return;
     for (const AtomModel& model : models_) {
       if (model.size() == models_.front().size()) continue;
       throw FormatError(path_, split_by_end_,
@@ -89,7 +95,7 @@ class ModelSplitter {
 
   const std::string& path_;
   std::vector<AtomModel> models_;
-  bool has_model_records_ = false;
+  int n_model_records_ = 0;
   bool is_open_ = false;    // the last model takes more atoms
   bool is_inside_ = false;  // between MODEL and its end
   long first_outside_ = 0;  // line of the first atom beside the models

@@ -31,6 +31,8 @@ TEST_CASE("atom_records: models by MODEL and ENDMDL") {
         Sizes{1, 2});
   CHECK(sizes("MODEL 1\n" + kAtom + "MODEL 2\n" + kAtom) == Sizes{1, 1});
   CHECK(sizes(kAtom + "ENDMDL\n" + kAtom + "ENDMDL\n") == Sizes{1, 1});
+  CHECK(sizes(kAtom + "TER\n# scores\nfilter 0\nmodel 1\n") == Sizes{1});  // as Rosetta writes them
+  CHECK(sizes("MODEL 1\n" + kAtom + "ENDMDL\nMODEL 2\nENDMDL\n") == Sizes{1, 0});
 }
 
 TEST_CASE("atom_records: END parts frames as VMD writes them, and nothing else") {

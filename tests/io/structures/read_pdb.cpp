@@ -171,6 +171,7 @@ TEST_CASE("read_pdb: lines that gemmi would read as something else are refused")
   CHECK(pdb_error(with(30, " 1.000 2.000")).find("a.pdb:2: the x coordinate") == 0);
   CHECK(pdb_error(with(23, "****")) ==
         "a.pdb:2: the residue number (columns 23 to 26) is '****'; an integer was expected");
+  CHECK(molecule_of_pdb(with(23, "    ")).residues.back().number == 0);  // as some write ligands
   CHECK(pdb_error(with(29, "\t")).find("a.pdb:2: a PDB atom line has a tab") == 0);
   CHECK(pdb_error(good + good.substr(0, 50) + "\n") ==
         "a.pdb:2: a PDB atom line has 50 columns; at least 54 were expected (z ends there); complete the line");

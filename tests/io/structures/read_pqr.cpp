@@ -136,7 +136,7 @@ TEST_CASE("read_pqr: water and HETATM by choice") {
   options.include_water = true;
   CHECK(molecule_of_pqr(text, options).size() == 3);
   CHECK(message_of([&] { molecule_of_pqr("HETATM 3 O HOH 3 1 2 3 0 1\nATOM 1 O WAT 3 1 2 3 0 1\n"); }) ==
-        "f.pqr: no atoms are left: 2 are water and 0 are HETATM records that were not asked for; include them");
+        "f.pqr: no atoms are left: 2 are water, which water keeps");
 }
 
 TEST_CASE("read_pqr: residues in file order; late hydrogens go home, a second molecule does not") {

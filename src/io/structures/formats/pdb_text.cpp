@@ -41,7 +41,8 @@ void check_coordinates(const std::string& path, const AtomLine& line) {
 void check_residue_number(const std::string& path, const AtomLine& line) {
   const std::string_view field = trimmed(line.text.substr(22, 4));
   long long unused = 0;
-  if (parse_integer(field, unused)) return;
+  // Some writers of ligands leave it blank.
+  if (field.empty() || parse_integer(field, unused)) return;
   // Beyond 9999 numbers continue in base 36 (hybrid-36) or hexadecimal.
   const auto is_base36 = [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
