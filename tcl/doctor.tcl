@@ -36,6 +36,9 @@ namespace eval ::espdiff {
         set pdb2pqr [dict get $build pdb2pqr]
         lappend items [expr {$pdb2pqr ne "" ? [list PDB2PQR ok $pdb2pqr] : [list PDB2PQR missing "structures without\
             charges cannot get a potential; [dict get $build pdb2pqr_remedy]"]}]
+        set ligands [dict get $build ligands]
+        lappend items [list ligands [expr {[dict get $ligands available] ? "ok" : "missing"}]\
+            [dict get $ligands description]]
         set gnuplot [lindex [auto_execok gnuplot] 0]
         lappend items [expr {$gnuplot ne "" ? [list gnuplot ok $gnuplot] : [list gnuplot missing "plots and maps cannot be\
             saved as pictures; install it (Debian: gnuplot-nox)"]}]

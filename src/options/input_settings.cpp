@@ -31,8 +31,9 @@ Setting ligand_row() {
         for (const std::string& path : o.input.charges.ligands) text += (text.empty() ? "" : ",") + path;
         return text;
       },
-      "MOL2 file of a ligand in the structures, with its hydrogens, for which PDB2PQR assigns charges (PEOE); "
-      "may be given several times");
+      "MOL2 file of a ligand in the structures, with its hydrogens, for which PDB2PQR assigns charges (PEOE), or its "
+      "definition in the Chemical Component Dictionary (.cif), whose bonds Open Babel takes; may be given several "
+      "times");
   row.is_list = row.is_file = true;
   return row;
 }

@@ -13,6 +13,7 @@
 #include "base/text/joined_words.h"
 #include "io/molecules/elements.h"
 #include "io/molecules/select_atoms.h"
+#include "io/structures/read_component.h"
 #include "io/structures/read_topology.h"
 #include "io/structures/structure_file.h"
 #include "prepare/charges/pdb2pqr.h"
@@ -369,9 +370,13 @@ void check_ligands(const InputOptions& options, const std::vector<const LoadedSt
         std::any_of(states.begin(), states.end(), [](const auto* s) { return s->preparation.has_value(); });
     const Molecule& whole = states.front()->whole;
     throw InputError(path + ": " +
-                     (any ? "no residue that is prepared has heavy atoms of its names; " + whole.name + " has " +
-                                describe_chains(whole)
-                          : "no structure is prepared that this ligand could be in") +
+                     (!any ? "no structure is prepared that this ligand could be in"
+                      : is_component_path(path)
+                          ? "no residue that is prepared, and has no hydrogens yet, has name, heavy atoms and bonds of "
+                            "one of its components; " +
+                                whole.name + " has " + describe_chains(whole)
+                          : "no residue that is prepared has heavy atoms of its names; " + whole.name + " has " +
+                                describe_chains(whole)) +
                      "; leave " + option("ligand") + " out, or name its atoms as the structure does");
   }
 }

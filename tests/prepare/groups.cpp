@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <tuple>
 
 #include "align/residue_names.h"
@@ -161,10 +162,47 @@ TEST_CASE("charge_groups: the file's formula confirms a ligand's bonds, or a war
   REQUIRE(wrong.warnings.size() == 2);
   CHECK(wrong.warnings[0] ==
         "LIG 1 of chain A has 6 hydrogens (without charge) by the bonds that Open Babel perceives, and 4 by the file's "
-        "formula, so that its charges are wrong; give a MOL2 file of it");
+        "formula, so that its charges are wrong; give a MOL2 file of it, or its definition in the Chemical Component "
+        "Dictionary (LIG.cif); CCP4's library has many: install it (Debian: refmac-dictionary)");
   // With heavy atoms missing it says nothing.
   CHECK(with_formula("C3 H8 O").warnings.size() == 1);
 }
+
+#ifdef ESPDIFF_HAVE_GEMMI
+TEST_CASE("charge_groups: bonds of a definition that is given, or of CCP4's library, are taken as they are") {
+  if (find_open_babel().empty()) return;
+  const ScratchFolder folder;
+  const std::string acetaldehyde =
+      "data_LIG\nloop_\n_chem_comp_atom.comp_id\n_chem_comp_atom.atom_id\n_chem_comp_atom.type_symbol\n"
+      "_chem_comp_atom.charge\nLIG C1 C 0\nLIG C2 C 0\nLIG O1 O 0\nloop_\n_chem_comp_bond.comp_id\n"
+      "_chem_comp_bond.atom_id_1\n_chem_comp_bond.atom_id_2\n_chem_comp_bond.value_order\nLIG C1 C2 SING\n"
+      "LIG C2 O1 DOUB\n";
+  const Molecule molecule = molecule_of("FORMUL   2  LIG    C2 H4 O\n" + ethanol("LIG", 1, 0));
+  ChargeOptions options;
+  options.ligands = {folder.write("LIG.cif", acetaldehyde)};
+  const Groups given = charged(molecule, options);
+  REQUIRE(given.charged.size() == 7);
+  CHECK(given.definitions == options.ligands);
+  CHECK(given.lines[0] ==
+        "LIG 1 of chain A: +0 e, 4 hydrogens added, by Open Babel (Gasteiger's charges, pH 7; bonds of LIG.cif, which "
+        "agree with the file's formula)");
+  CHECK(given.warnings.size() == 1);
+  // Another ligand with names of these atoms has other bonds.
+  const Molecule other =
+      molecule_of(hetatm(1, " C1", "LIG", 1, 0, 0, 0, "C") + hetatm(2, " C2", "LIG", 1, 2.4, 0, 0, "C") +
+                  hetatm(3, " O1", "LIG", 1, 1.2, 0.75, 0, "O"));
+  CHECK(charged(other, options).definitions.empty());
+  std::filesystem::create_directories(folder.file("monomers/l"));
+  folder.write("monomers/l/LIG.cif", acetaldehyde);
+  setenv("CLIBD_MON", folder.file("monomers").c_str(), 1);
+  const Groups of_library = charged(molecule, {});
+  setenv("CLIBD_MON", "", 1);
+  CHECK(of_library.charged.charges == given.charged.charges);
+  CHECK(of_library.definitions.empty());
+  CHECK(of_library.lines[0].find("; bonds of CCP4's library, which agree with") != std::string::npos);
+  CHECK(charged(molecule, {}).charged.size() == 9);
+}
+#endif
 
 TEST_CASE("charge_groups: hydrogens that Open Babel does not keep are made anew") {
   if (find_open_babel().empty()) return;

@@ -181,6 +181,33 @@ TEST_CASE("prepare_molecule: a residue under an unknown name gets its charges in
     CHECK(charge_of(modified.molecule, neighbour) == doctest::Approx(charge_of(plain.molecule, neighbour)));
 }
 
+TEST_CASE("prepare_molecule: a residue is part of its chain by its bonds, whatever its backbone is named") {
+  const std::string text = lysozyme_piece();
+  if (text.empty() || find_open_babel().empty()) return;
+  Molecule chromophore = molecule_from(renamed(text, kSerine, "XSR"));
+  const std::vector<std::size_t> own = atoms_of(chromophore, kSerine);
+  std::vector<std::size_t> backbone;
+  for (const auto& [usual, other] : {std::pair("N", "N1"), {"CA", "CA1"}, {"C", "C3"}, {"O", "O3"}}) {
+    for (const std::size_t i : own) {
+      if (chromophore.atoms[i].name != usual) continue;
+      backbone.push_back(i);
+      chromophore.atoms[i].name = other;
+    }
+  }
+  const auto found = peptide_backbone(chromophore, kSerine - 1, atoms_of_residues(chromophore));
+  REQUIRE(found.has_value());
+  CHECK(std::vector<std::size_t>{found->n, found->ca, found->c, found->o} == backbone);
+  CHECK_FALSE(peptide_backbone(chromophore, kSerine, atoms_of_residues(chromophore)).has_value());
+  const Prepared plain = prepared(molecule_from(text)), modified = prepared(chromophore, true);
+  REQUIRE(modified.preparation.groups.size() == 1);
+  CHECK(modified.preparation.groups[0] ==
+        "XSR 38 of chain A: +0 e, in its chain, by Open Babel (Gasteiger's charges, pH 7)");
+  CHECK(net_charge(modified.molecule) == doctest::Approx(net_charge(plain.molecule)).epsilon(1e-4));
+  CHECK(atoms_of(modified.molecule, kSerine).size() == atoms_of(plain.molecule, kSerine).size());
+  for (const int neighbour : {kSerine - 1, kSerine + 1})
+    CHECK(charge_of(modified.molecule, neighbour) == doctest::Approx(charge_of(plain.molecule, neighbour)));
+}
+
 TEST_CASE("prepare_molecule: a residue of one atom is left out and listed") {
   const std::string text = lysozyme_piece();
   if (text.empty()) return;

@@ -29,6 +29,7 @@
 #include "ensemble/ensemble_study.h"
 #endif
 #include "options/input_settings.h"
+#include "prepare/charges/open_babel.h"
 #include "prepare/charges/pdb2pqr.h"
 #include "report/records/metrics.h"
 #include "system/this_process.h"
@@ -53,15 +54,18 @@ Tcl_Obj* build(const Call&) {
 #if defined(ESPDIFF_HAVE_HDF5)
   hdf5 = true;
 #endif
-  return to_dict({{"cuda", to_obj(cuda)},
-                  {"vtk", to_obj(vtk)},
-                  {"gemmi", to_obj(gemmi)},
-                  {"hdf5", to_obj(hdf5)},
-                  {"pages", to_obj(page_texts().count("three.min.js") > 0)},
-                  {"pdb2pqr", to_obj(find_pdb2pqr())},
-                  {"pdb2pqr_remedy", to_obj(kPdb2pqrRemedy)},
-                  {"compiler", to_obj("g++ " __VERSION__)},
-                  {"tcl", to_obj(TCL_PATCH_LEVEL)}});
+  const LigandSupport ligands = ligand_support();
+  return to_dict(
+      {{"cuda", to_obj(cuda)},
+       {"vtk", to_obj(vtk)},
+       {"gemmi", to_obj(gemmi)},
+       {"hdf5", to_obj(hdf5)},
+       {"pages", to_obj(page_texts().count("three.min.js") > 0)},
+       {"pdb2pqr", to_obj(find_pdb2pqr())},
+       {"pdb2pqr_remedy", to_obj(kPdb2pqrRemedy)},
+       {"ligands", to_dict({{"available", to_obj(ligands.is_there)}, {"description", to_obj(ligands.text)}})},
+       {"compiler", to_obj("g++ " __VERSION__)},
+       {"tcl", to_obj(TCL_PATCH_LEVEL)}});
 }
 
 Tcl_Obj* allocated(const Call&) { return to_obj(static_cast<std::size_t>(allocated_bytes())); }

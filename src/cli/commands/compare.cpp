@@ -132,8 +132,7 @@ std::string prefix_of(const CompareArguments& a, bool overwrite) {
 /// What was typed, with a change.
 TypedWords words_of(const CompareArguments& a, const WayOn& way, const Context& context) {
   TypedWords words = with_options(context.words, way.options);
-  if (!a.overwrite && prefix_of(a, false) == a.output)
-    words = with_options(words, {{"overwrite", "", true}});
+  if (!a.overwrite && prefix_of(a, false) == a.output) words = with_options(words, {{"overwrite", "", true}});
   return way.exchanges ? exchanged(words, a.source, a.target) : words;
 }
 

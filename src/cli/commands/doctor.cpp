@@ -14,6 +14,7 @@
 #include "io/files/run_program.h"
 #include "io/frames/frame_reader.h"
 #include "io/frames/molfile_plugins.h"
+#include "prepare/charges/open_babel.h"
 #include "prepare/charges/pdb2pqr.h"
 #if defined(ESPDIFF_HAVE_HDF5)
 #include "ensemble/file/hdf5_writer.h"
@@ -99,6 +100,8 @@ int doctor_verb() {
   line("prepare", !pdb2pqr.empty(),
        !pdb2pqr.empty() ? pdb2pqr
                         : std::string("no program `pdb2pqr30` on PATH, which assigns charges; ") + kPdb2pqrRemedy);
+  const LigandSupport ligands = ligand_support();
+  line("ligands", ligands.is_there, ligands.text);
   vmd_module_line();
   const std::string vmd = find_program("vmd");
   line("vmd", !vmd.empty(), !vmd.empty() ? vmd : "no program `vmd` on PATH; only the VMD module needs it");

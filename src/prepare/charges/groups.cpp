@@ -16,6 +16,7 @@
 #include "base/not_a_number.h"
 #include "prepare/charges/caps.h"
 #include "prepare/charges/ion_table.h"
+#include "prepare/charges/ligand_bonds.h"
 #include "prepare/charges/modified_residues.h"
 #include "prepare/charges/open_babel.h"
 
@@ -120,45 +121,71 @@ int hydrogens_at_no_charge(std::size_t n_hydrogens, double net_charge) {
 }
 
 /// What the file's formula says of the hydrogens; nothing without one, or where heavy atoms are missing, as where the
-/// ligand is bound to others. A residue within a chain lacks water.
-std::optional<int> hydrogens_of_formula(const Molecule& molecule, const Molecule& group, bool in_chain) {
+/// ligand is bound to others.
+std::optional<int> hydrogens_of_formula(const Molecule& molecule, const Molecule& group, const LostInChain& lost) {
   const auto found = molecule.formulas.find(group.residues.front().name);
   if (found == molecule.formulas.end()) return std::nullopt;
   ChemicalFormula formula = found->second;
   const int n_hydrogens = formula.atoms["H"] + formula.atoms["D"];
-  if (in_chain) --formula.atoms["O"];
+  formula.atoms["O"] -= lost.n_oxygens;
   for (const Atom& atom : group.atoms) {
     if (!is_hydrogen_atom(atom)) --formula.atoms[atom.element];
   }
   for (const auto& [element, n] : formula.atoms) {
     if (element != "H" && element != "D" && n != 0) return std::nullopt;
   }
-  return n_hydrogens - formula.charge - (in_chain ? 2 : 0);
+  return n_hydrogens - formula.charge - lost.n_hydrogens;
 }
 
 std::size_t count_hydrogens(const Molecule& group) {
   return static_cast<std::size_t>(std::count_if(group.atoms.begin(), group.atoms.end(), is_hydrogen_atom));
 }
 
+/// Where the bonds of a residue are from, for people; empty where Open Babel perceived them.
+std::string take_source(Groups& groups, const std::optional<LigandBonds>& bonds) {
+  if (!bonds) return {};
+  if (!bonds->path.empty()) groups.definitions.push_back(bonds->path);
+  return bonds->in_words();
+}
+
+/// Where the right bonds are, for people.
+std::string ways_to_bonds(const std::string& name, const std::string& bonds_from) {
+  const std::string definition = "its definition in the Chemical Component Dictionary (" + name + ".cif)";
+  if (!bonds_from.empty()) return "give a MOL2 file of it";
+  const std::string files = "give a MOL2 file of it, or " + definition;
+  return has_monomer_library() ? files : files + "; CCP4's library has many: " + kMonomerLibraryRemedy;
+}
+
 /// Whether the file's formula confirms the bonds. A warning says where it does not.
 bool agrees_with_formula(Groups& groups, const Molecule& molecule, const Molecule& group, double net_charge,
-                         bool in_chain) {
-  const std::optional<int> wanted = hydrogens_of_formula(molecule, group, in_chain);
+                         const LostInChain& lost, const std::string& bonds_from) {
+  const std::optional<int> wanted = hydrogens_of_formula(molecule, group, lost);
   const int found = hydrogens_at_no_charge(count_hydrogens(group), net_charge);
   if (wanted && *wanted != found)
     groups.warnings.push_back(residue_label(group.residues.front()) + " has " + std::to_string(found) +
-                              " hydrogens (without charge) by the bonds that Open Babel perceives, and " +
-                              std::to_string(*wanted) +
-                              " by the file's formula, so that its charges are wrong; give a MOL2 file of it");
+                              " hydrogens (without charge) by the bonds " +
+                              (bonds_from.empty() ? "that Open Babel perceives" : "of " + bonds_from) + ", and " +
+                              std::to_string(*wanted) + " by the file's formula, so that its charges are wrong; " +
+                              ways_to_bonds(group.residues.front().name, bonds_from));
   return wanted && *wanted == found;
 }
 
-void charge_other_ligand(Groups& groups, Molecule& group, const Molecule& molecule, std::size_t residue, double ph,
-                         const Progress& progress) {
-  ChargedLigand ligand = charge_by_open_babel(group, molecule, ph, progress);
+/// "Gasteiger's charges, pH 7; bonds of FMN.cif, as the file's formula has them"
+std::string source_in_words(double ph, const std::string& bonds_from, bool agrees) {
+  return "Gasteiger's charges, pH " + formatted("%g", ph) +
+         (!bonds_from.empty() ? "; bonds of " + bonds_from + (agrees ? ", which agree with the file's formula" : "")
+          : agrees            ? "; bonds agree with the file's formula"
+                              : "");
+}
+
+void charge_other_ligand(Groups& groups, Molecule& group, const Molecule& molecule, std::size_t residue,
+                         const std::vector<Component>& components, double ph, const Progress& progress) {
+  const std::optional<LigandBonds> bonds = bonds_by_definition(group, group.size(), components);
+  const std::string bonds_from = take_source(groups, bonds);
+  ChargedLigand ligand = charge_by_open_babel(group, molecule, ph, bonds ? &*bonds : nullptr, progress);
   const std::size_t n_given = ligand.molecule.size() - ligand.n_hydrogens_added;
   group = std::move(ligand.molecule);
-  const bool agrees = agrees_with_formula(groups, molecule, group, ligand.net_charge, false);
+  const bool agrees = agrees_with_formula(groups, molecule, group, ligand.net_charge, {}, bonds_from);
   const std::size_t n_dropped = drop_hydrogens_at_bonds(group, n_given, molecule, residue);
   const std::optional<int> usual = charge_of_group(group.residues.front().name, group.size());
   // Gasteiger's charges of phosphates do not sum up to the whole number.
@@ -168,8 +195,7 @@ void charge_other_ligand(Groups& groups, Molecule& group, const Molecule& molecu
       label + ": " + charge + ", " + std::to_string(ligand.n_hydrogens_added - n_dropped) + " hydrogens added" +
       (ligand.n_hydrogens_replaced == 0 ? std::string()
                                         : " for the file's " + std::to_string(ligand.n_hydrogens_replaced)) +
-      ", by Open Babel (Gasteiger's charges, pH " + formatted("%g", ph) +
-      (agrees ? "; bonds agree with the file's formula)" : ")"));
+      ", by Open Babel (" + source_in_words(ph, bonds_from, agrees) + ")");
   const auto n = static_cast<double>(group.size());
   for (float& q : group.charges) q += static_cast<float>((whole - ligand.net_charge) / n);
   if (!usual) {
@@ -177,9 +203,9 @@ void charge_other_ligand(Groups& groups, Molecule& group, const Molecule& molecu
     return;
   }
   if (std::fabs(ligand.net_charge - *usual) <= 0.5) return;
-  groups.warnings.push_back(label + " has " + in_elementary_charges(std::round(ligand.net_charge)) +
-                            " by the bonds that Open Babel perceives and usually " + charge +
-                            ", to which its charges were shifted evenly; a MOL2 file of it would be exact");
+  groups.warnings.push_back(label + " has " + in_elementary_charges(std::round(ligand.net_charge)) + " by the bonds " +
+                            (bonds_from.empty() ? "that Open Babel perceives" : "of " + bonds_from) + " and usually " +
+                            charge + ", to which its charges were shifted evenly; a MOL2 file of it would be exact");
 }
 
 std::string names_in_words(const std::vector<std::string>& names) {
@@ -263,9 +289,10 @@ std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vect
     } else if (is_haem(name) && has_haem_names(molecule, atoms[r])) {
       sources[r] = GroupSource::kHaem;
     } else if (has_open_babel) {
-      sources[r] = is_bound_as_cap(molecule, r, atoms)       ? GroupSource::kCap
-                   : is_in_nucleic_chain(molecule, r, atoms) ? GroupSource::kModified
-                                                             : GroupSource::kOpenBabel;
+      const bool in_chain = peptide_backbone(molecule, r, atoms) || is_in_nucleic_chain(molecule, r, atoms);
+      sources[r] = is_bound_as_cap(molecule, r, atoms) ? GroupSource::kCap
+                   : in_chain                          ? GroupSource::kModified
+                                                       : GroupSource::kOpenBabel;
     }
   }
   keep_torn_chains(kinds, sources);
@@ -277,6 +304,7 @@ Groups charge_groups(const Molecule& molecule, const std::vector<GroupSource>& s
                      const Progress& progress) {
   Groups groups;
   const auto atoms = atoms_of_residues(molecule);
+  const std::vector<Component> components = given_components(options.ligands);
   for (std::size_t r = 0; r < sources.size(); ++r) {
     if (sources[r] == GroupSource::kNone) continue;
     Molecule group = residue_alone(molecule, r, atoms[r]);
@@ -287,17 +315,18 @@ Groups charge_groups(const Molecule& molecule, const std::vector<GroupSource>& s
       continue;
     }
     if (sources[r] == GroupSource::kModified || sources[r] == GroupSource::kCap) {
-      int net_charge = 0;
-      const Molecule modified = charge_modified_residue(molecule, r, options.ph, net_charge, progress);
+      const ChargedResidue modified = charge_modified_residue(molecule, r, components, options.ph, progress);
+      const std::string charge = in_elementary_charges(modified.net_charge),
+                        bonds_from = take_source(groups, modified.bonds);
       const bool agrees =
-          agrees_with_formula(groups, molecule, modified, net_charge, sources[r] == GroupSource::kModified);
-      append_residue(groups.modified, modified);
-      groups.guessed.push_back(label + " (" + in_elementary_charges(net_charge) + ")");
+          agrees_with_formula(groups, molecule, modified.molecule, modified.net_charge,
+                              sources[r] == GroupSource::kModified ? modified.lost : LostInChain(), bonds_from);
+      append_residue(groups.modified, modified.molecule);
+      groups.guessed.push_back(label + " (" + charge + ")");
       const std::vector<std::string> foreign = foreign_atoms(molecule, r, atoms[r]);
       groups.lines.push_back(
-          label + ": " + in_elementary_charges(net_charge) + ", in its chain, by Open Babel (Gasteiger's charges, pH " +
-          formatted("%g", options.ph) + (agrees ? "; bonds agree with the file's formula)" : ")") +
-          (foreign.empty() ? std::string() : ", since " + residue.name + " has no " + names_in_words(foreign)));
+          label + ": " + charge + ", in its chain, by Open Babel (" + source_in_words(options.ph, bonds_from, agrees) +
+          ")" + (foreign.empty() ? std::string() : ", since " + residue.name + " has no " + names_in_words(foreign)));
       continue;
     }
     if (sources[r] == GroupSource::kAdditive || sources[r] == GroupSource::kTorn) {
@@ -317,7 +346,7 @@ Groups charge_groups(const Molecule& molecule, const std::vector<GroupSource>& s
       charge_haem(group);
       groups.lines.push_back(label + ": -2 e (iron(II), CHARMM22's charges without hydrogens)");
     } else {
-      charge_other_ligand(groups, group, molecule, r, options.ph, progress);
+      charge_other_ligand(groups, group, molecule, r, components, options.ph, progress);
     }
     append_residue(groups.charged, group);
   }

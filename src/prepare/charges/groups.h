@@ -34,6 +34,7 @@ struct Groups {
   std::vector<LeftOutResidue> additives;  ///< and torn residues
   std::vector<std::string> lines;         ///< each charged group in words: "ZN 301 of chain A: +2 e"
   std::vector<std::string> warnings;      ///< net charges that are not the usual ones, or that nothing confirms
+  std::vector<std::string> definitions;   ///< files among ChargeOptions::ligands whose bonds were taken
   std::vector<std::string> guessed;  ///< ligands by Open Babel without a known net charge: "E20 1 of chain A (+1 e)"
 };
 

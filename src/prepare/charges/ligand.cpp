@@ -9,6 +9,7 @@
 #include "align/residue_names.h"
 #include "base/error.h"
 #include "io/molecules/molecule_builder.h"
+#include "io/structures/read_component.h"
 
 namespace espdiff {
 namespace {
@@ -48,6 +49,14 @@ std::vector<Mol2Atom> missing_hydrogens(const Mol2File& ligand, const Molecule& 
 }
 
 }  // namespace
+
+std::vector<Mol2File> read_ligands(const std::vector<std::string>& paths) {
+  std::vector<Mol2File> ligands;
+  for (const std::string& path : paths) {
+    if (!is_component_path(path)) ligands.push_back(read_mol2(path));
+  }
+  return ligands;
+}
 
 std::vector<std::int32_t> ligands_of_residues(const Molecule& molecule, const std::vector<Mol2File>& ligands) {
   const auto atoms = atoms_of_residues(molecule);

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "base/types.h"
 #include "io/structures/read_mol2.h"
 
 namespace espdiff {
+
+/// The MOL2 files among ChargeOptions::ligands. @throws as read_mol2()
+std::vector<Mol2File> read_ligands(const std::vector<std::string>& paths);
 
 /// [residue] the first file whose atoms have all names of the residue's heavy atoms; -1 for none, and for amino acids
 /// and nucleotides.

@@ -181,16 +181,23 @@ void name_end_oxygens(Molecule& molecule) {
 /// Longer than a bond of phosphorus and oxygen, or of carbon and nitrogen.
 constexpr double kChainBond_A = 1.8;
 
-/// The atom of another residue that is bound to an atom of this one; both by name.
+/// The atom of this name, of another residue, that is bound to an atom of this one.
+std::optional<std::size_t> atom_bound_to(const Molecule& molecule, std::size_t end, const char* bound) {
+  for (std::size_t i = 0; i < molecule.size(); ++i) {
+    if (molecule.atoms[i].residue != molecule.atoms[end].residue &&
+        norm(molecule.positions[i] - molecule.positions[end]) <= kChainBond_A &&
+        normalized_atom_name(molecule.atoms[i].name) == bound)
+      return i;
+  }
+  return std::nullopt;
+}
+
+/// The same; both by name.
 std::optional<std::size_t> bound_atom(const Molecule& molecule, std::size_t residue,
                                       const std::vector<std::vector<std::size_t>>& atoms, const char* own,
                                       const char* bound) {
   const std::optional<std::size_t> end = atom_named(molecule, atoms[residue], own);
-  for (std::size_t r = 0; end && r < atoms.size(); ++r) {
-    const std::optional<std::size_t> other = r == residue ? std::nullopt : atom_named(molecule, atoms[r], bound);
-    if (other && norm(molecule.positions[*other] - molecule.positions[*end]) <= kChainBond_A) return other;
-  }
-  return std::nullopt;
+  return end ? atom_bound_to(molecule, *end, bound) : std::nullopt;
 }
 
 std::vector<std::size_t> atoms_named(const Molecule& molecule, const std::string& name) {
@@ -232,18 +239,29 @@ void drop_end_phosphates(Molecule& molecule, Preparation& preparation) {
       "the phosphate at the 5' end was left out (-2 e), since no force field of PDB2PQR has it: " + ends);
 }
 
+struct Neighbours {
+  std::vector<std::size_t> atoms;
+  LostInChain lost;
+};
+
 /// The neighbours' atoms that stand in for the chain: C, CA and O before N, or N and CA behind C; O3' and C3' before P,
 /// or P behind O3'.
-std::vector<std::size_t> cap_atoms(const Molecule& molecule, std::size_t residue,
-                                   const std::vector<std::vector<std::size_t>>& atoms) {
-  std::vector<std::size_t> cap;
+Neighbours neighbours_of(const Molecule& molecule, std::size_t residue,
+                         const std::vector<std::vector<std::size_t>>& atoms) {
+  Neighbours cap;
+  const std::optional<PeptideBackbone> backbone = peptide_backbone(molecule, residue, atoms);
   const auto add_neighbour = [&](const char* own, const char* bound, std::initializer_list<const char*> names) {
-    const std::optional<std::size_t> other = bound_atom(molecule, residue, atoms, own, bound);
+    const std::string_view end = own;
+    const std::optional<std::size_t> other =
+        backbone && (end == "N" || end == "C") ? atom_bound_to(molecule, end == "N" ? backbone->n : backbone->c, bound)
+                                               : bound_atom(molecule, residue, atoms, own, bound);
     if (!other) return;
+    ++cap.lost.n_hydrogens;
+    if (end == "C" || end == "P") ++cap.lost.n_oxygens;
     const auto r = static_cast<std::size_t>(molecule.atoms[*other].residue);
     for (const char* name : names) {
       const std::optional<std::size_t> i = atom_named(molecule, atoms[r], name);
-      if (i) cap.push_back(*i);
+      if (i) cap.atoms.push_back(*i);
     }
   };
   add_neighbour("N", "C", {"C", "CA", "O"});
@@ -403,13 +421,35 @@ GroupSource nucleotide_source(const Molecule& molecule, std::size_t residue,
   return is_in_nucleic_chain(molecule, residue, atoms) ? GroupSource::kModified : GroupSource::kOpenBabel;
 }
 
+std::optional<PeptideBackbone> peptide_backbone(const Molecule& molecule, std::size_t residue,
+                                                const std::vector<std::vector<std::size_t>>& atoms) {
+  const std::vector<std::size_t>& own = atoms[residue];
+  // One that is named as usual is found by its names.
+  if (atom_named(molecule, own, "N") || atom_named(molecule, own, "C")) return std::nullopt;
+  const auto first = [&](const char* element, const auto& is) -> std::optional<std::size_t> {
+    const auto found = std::find_if(own.begin(), own.end(),
+                                    [&](std::size_t i) { return molecule.atoms[i].element == element && is(i); });
+    return found == own.end() ? std::nullopt : std::optional(*found);
+  };
+  const auto is_near = [&](std::size_t other) {
+    return [&molecule, other](std::size_t i) {
+      return i != other && norm(molecule.positions[i] - molecule.positions[other]) <= kChainBond_A;
+    };
+  };
+  const auto n = first("N", [&](std::size_t i) { return atom_bound_to(molecule, i, "C").has_value(); });
+  const auto c = first("C", [&](std::size_t i) { return atom_bound_to(molecule, i, "N").has_value(); });
+  if (!n || !c) return std::nullopt;
+  const auto ca = first("C", is_near(*n)), o = first("O", is_near(*c));
+  return ca && o && *ca != *c ? std::optional(PeptideBackbone{*n, *ca, *c, *o}) : std::nullopt;
+}
+
 bool is_in_nucleic_chain(const Molecule& molecule, std::size_t residue,
                          const std::vector<std::vector<std::size_t>>& atoms) {
   return bound_atom(molecule, residue, atoms, "P", "O3'") || bound_atom(molecule, residue, atoms, "O3'", "P");
 }
 
-Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, double ph, int& net_charge,
-                                 const Progress& progress) {
+ChargedResidue charge_modified_residue(const Molecule& molecule, std::size_t residue,
+                                       const std::vector<Component>& components, double ph, const Progress& progress) {
   const auto atoms = atoms_of_residues(molecule);
   std::vector<std::size_t> own;
   for (const std::size_t i : atoms[residue]) {
@@ -417,13 +457,15 @@ Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, 
   }
   const std::size_t n_own = own.size();
   std::vector<std::size_t> with_cap = own;
-  for (const std::size_t i : cap_atoms(molecule, residue, atoms)) with_cap.push_back(i);
+  const Neighbours cap = neighbours_of(molecule, residue, atoms);
+  with_cap.insert(with_cap.end(), cap.atoms.begin(), cap.atoms.end());
   Molecule fragment = residue_alone(molecule, residue, with_cap);
   // The next phosphate would be one more charge: a methyl group stands in for it.
   for (std::size_t i = n_own; i < with_cap.size(); ++i) {
     if (fragment.atoms[i].element == "P") fragment.atoms[i].name = fragment.atoms[i].element = "C";
   }
-  const ChargedLigand ligand = charge_by_open_babel(fragment, molecule, ph, progress);
+  const std::optional<LigandBonds> bonds = bonds_by_definition(fragment, n_own, components);
+  const ChargedLigand ligand = charge_by_open_babel(fragment, molecule, ph, bonds ? &*bonds : nullptr, progress);
   std::vector<std::size_t> kept;
   double sum = 0;
   for (std::size_t i = 0; i < ligand.molecule.size(); ++i) {
@@ -432,9 +474,10 @@ Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, 
     kept.push_back(i);
     sum += static_cast<double>(ligand.molecule.charges[i]);
   }
-  Molecule charged = residue_alone(ligand.molecule, 0, kept);
-  net_charge = static_cast<int>(std::lround(ligand.net_charge));
-  for (float& q : charged.charges) q += static_cast<float>((net_charge - sum) / static_cast<double>(kept.size()));
+  ChargedResidue charged{residue_alone(ligand.molecule, 0, kept), static_cast<int>(std::lround(ligand.net_charge)),
+                         bonds, cap.lost};
+  for (float& q : charged.molecule.charges)
+    q += static_cast<float>((charged.net_charge - sum) / static_cast<double>(kept.size()));
   return charged;
 }
 
@@ -461,6 +504,14 @@ Molecule with_known_residues(const Molecule& molecule, const std::vector<GroupSo
       keep[i] = is_modified ? parent.count(normalized_atom_name(atom.name)) > 0
                             : !is_phosphate_atom(atom) && !is_proton(atom);
       known.atoms[i].hetero = false;
+    }
+    const std::optional<PeptideBackbone> backbone = peptide_backbone(molecule, r, atoms);
+    if (!is_modified || is_base || !backbone) continue;
+    for (const std::size_t i : atoms[r]) keep[i] = false;
+    for (const auto& [i, name] :
+         {std::pair(backbone->n, "N"), {backbone->ca, "CA"}, {backbone->c, "C"}, {backbone->o, "O"}}) {
+      known.atoms[i].name = name;
+      keep[i] = true;
     }
   }
   return std::find(keep.begin(), keep.end(), false) == keep.end() ? known : keep_atoms(known, keep);

@@ -1,12 +1,14 @@
 // modified_residues.h: residues of chains that PDB2PQR does not know, or that it could not complete.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/progress.h"
 #include "base/types.h"
 #include "prepare/charges/groups.h"
+#include "prepare/charges/ligand_bonds.h"
 
 namespace espdiff {
 
@@ -43,16 +45,41 @@ GroupSource nucleotide_source(const Molecule& molecule, std::size_t residue,
 bool is_in_nucleic_chain(const Molecule& molecule, std::size_t residue,
                          const std::vector<std::vector<std::size_t>>& atoms);
 
+/// The atoms by which a residue is part of a protein's chain.
+struct PeptideBackbone {
+  std::size_t n, ca, c, o;
+};
+
+/// Those of a residue that has them under other names, as the chromophore of the green fluorescent protein has (N1,
+/// CA1, C3, O3): a nitrogen bound to the C of another residue, the carbon behind it, a carbon bound to the N of another
+/// residue, and the oxygen at it. Nothing where one is not there.
+/// @param atoms [residue] from atoms_of_residues()
+std::optional<PeptideBackbone> peptide_backbone(const Molecule& molecule, std::size_t residue,
+                                                const std::vector<std::vector<std::size_t>>& atoms);
+
 /// Whether PDB2PQR's force fields have an amino acid of this name; the names of ends (NALA) and of protonation states
 /// count.
 bool is_known_amino_acid(const std::string& name);
 
+/// What a residue has lost to its neighbours, which each bond of the chain takes from the formula.
+struct LostInChain {
+  int n_hydrogens = 0, n_oxygens = 0;
+};
+
+/// A residue of a chain with hydrogens and charges.
+struct ChargedResidue {
+  Molecule molecule;
+  int net_charge = 0;                ///< elementary charges
+  std::optional<LigandBonds> bonds;  ///< nothing where Open Babel perceived them
+  LostInChain lost;
+};
+
 /// The residue with hydrogens and charges by Open Babel. Neighbours in the chain stand in as an acetyl group at N and a
 /// methylamide at C, or methyl groups at P and O3' of a nucleotide, which are taken away again; then each atom of the
 /// residue gets an equal share of what its charges lack of the whole number.
-/// @param net_charge receives that number  @throws as charge_by_open_babel()
-Molecule charge_modified_residue(const Molecule& molecule, std::size_t residue, double ph, int& net_charge,
-                                 const Progress& progress);
+/// @param components of bonds_by_definition()  @throws as charge_by_open_babel()
+ChargedResidue charge_modified_residue(const Molecule& molecule, std::size_t residue,
+                                       const std::vector<Component>& components, double ph, const Progress& progress);
 
 /// What PDB2PQR gets: phosphorylated residues (kPhosphate) as SER, THR or TYR without the phosphate, modified ones
 /// (kModified) as glycine, or as a nucleotide of their ring, in their place, so that chains are whole.

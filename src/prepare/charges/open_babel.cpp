@@ -55,13 +55,14 @@ Error refused(const Molecule& ligand, const std::string& problem) {
                    .set_next({"", {{"leave-out", selection}}}));
 }
 
-Mol2File run_open_babel(const std::string& program, const Molecule& ligand, double ph, const std::string& what,
-                        const Progress& progress) {
+Mol2File run_open_babel(const std::string& program, const Molecule& ligand, const LigandBonds* bonds, double ph,
+                        const std::string& what, const Progress& progress) {
   const TemporaryFolder folder;
   ProgramCall call;
   call.words = {program,
-                "-ipdb",
-                folder.write("ligand.pdb", ligand_as_pdb(ligand)),
+                bonds != nullptr ? "-imol" : "-ipdb",
+                bonds != nullptr ? folder.write("ligand.mol", molfile_text(ligand, *bonds))
+                                 : folder.write("ligand.pdb", ligand_as_pdb(ligand)),
                 "-omol2",
                 "-O",
                 folder.file("ligand.mol2"),
@@ -101,9 +102,27 @@ Molecule without_hydrogens(const Molecule& ligand) {
   return keep_atoms(ligand, keep);
 }
 
+/// Takes a proton away from each of these atoms that has one; the others get equal shares of the charge that is left.
+void deprotonate(const std::vector<bool>& atoms, Mol2File& mol2, std::vector<Mol2Bond>& bonds) {
+  for (std::size_t h = mol2.atoms.size(); h-- > atoms.size();) {
+    const auto bond = std::find_if(bonds.begin(), bonds.end(), [&](const Mol2Bond& b) { return b.a == h || b.b == h; });
+    if (bond == bonds.end() || !atoms[std::min(bond->a, bond->b)]) continue;
+    const double left = mol2.atoms[h].charge - 1;
+    bonds.erase(bond);
+    for (Mol2Bond& other : bonds) {
+      if (other.a > h) --other.a;
+      if (other.b > h) --other.b;
+    }
+    mol2.atoms.erase(mol2.atoms.begin() + static_cast<std::ptrdiff_t>(h));
+    for (Mol2Atom& atom : mol2.atoms) atom.charge += left / static_cast<double>(mol2.atoms.size());
+  }
+}
+
 /// The ligand with the hydrogens that the file adds, at places of our own.
-ChargedLigand with_hydrogens(const Molecule& ligand, Mol2File mol2, const Molecule& surroundings) {
+ChargedLigand with_hydrogens(const Molecule& ligand, const LigandBonds* known, Mol2File mol2,
+                             const Molecule& surroundings) {
   std::vector<Mol2Bond> bonds = read_mol2_bonds(mol2);
+  if (known != nullptr) deprotonate(acylated_amidines(ligand, *known), mol2, bonds);
   drop_impossible_hydrogens(mol2, bonds, ligand.size());
   const std::vector<Vec3d> places = place_hydrogens(mol2, bonds, ligand.size(), surroundings);
   ChargedLigand charged;
@@ -134,19 +153,28 @@ std::string find_open_babel() {
   return find_program(named != nullptr && *named != '\0' ? named : "obabel");
 }
 
+LigandSupport ligand_support() {
+  const std::string program = find_open_babel();
+  if (program.empty())
+    return {false, std::string("no program `obabel` on PATH, which charges ligands; ") + kOpenBabelRemedy};
+  return {true, program + (has_monomer_library() ? ", with bonds of CCP4's library"
+                                                 : std::string("; without CCP4's library of bonds it guesses them; ") +
+                                                       kMonomerLibraryRemedy)};
+}
+
 ChargedLigand charge_by_open_babel(const Molecule& ligand, const Molecule& molecule, double ph,
-                                   const Progress& progress) {
+                                   const LigandBonds* bonds, const Progress& progress) {
   const std::string what = molecule.name + ": " + residue_label(ligand.residues.front());
   const std::string program = find_open_babel();
   if (program.empty())
     throw DeviceError(what + ": Open Babel, which makes its hydrogens and charges, is not there; " + kOpenBabelRemedy);
-  const Mol2File mol2 = run_open_babel(program, ligand, ph, what, progress);
-  if (continues(ligand, mol2)) return with_hydrogens(ligand, mol2, molecule);
+  const Mol2File mol2 = run_open_babel(program, ligand, bonds, ph, what, progress);
+  if (continues(ligand, mol2)) return with_hydrogens(ligand, bonds, mol2, molecule);
   const Molecule heavy = without_hydrogens(ligand);
   if (heavy.size() > 0 && heavy.size() < ligand.size()) {
-    const Mol2File anew = run_open_babel(program, heavy, ph, what, progress);
+    const Mol2File anew = run_open_babel(program, heavy, nullptr, ph, what, progress);
     if (continues(heavy, anew)) {
-      ChargedLigand charged = with_hydrogens(heavy, anew, molecule);
+      ChargedLigand charged = with_hydrogens(heavy, nullptr, anew, molecule);
       charged.n_hydrogens_replaced = ligand.size() - heavy.size();
       return charged;
     }

@@ -678,8 +678,7 @@ void require_charges(const Molecule& molecule, const ChargeOptions& options) {
   Molecule before = without_water(molecule, false);
   Preparation unused;
   rename_residues(before, unused);
-  std::vector<Mol2File> ligands;
-  for (const std::string& path : options.ligands) ligands.push_back(read_mol2(path));
+  const std::vector<Mol2File> ligands = read_ligands(options.ligands);
   const std::vector<std::int32_t> ligand_of = ligands_of_residues(before, ligands);
   require_known_names(before, group_sources(before, ligand_of, options), ligand_of,
                       force_field_for(molecule, nullptr, options.force_field));
@@ -718,8 +717,7 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
     if (!is_water_name(molecule.residues[r].name)) kept_states.push_back(states[r]);
   }
   rename_residues(before, done);
-  std::vector<Mol2File> ligands;
-  for (const std::string& path : options.ligands) ligands.push_back(read_mol2(path));
+  const std::vector<Mol2File> ligands = read_ligands(options.ligands);
   const std::vector<std::int32_t> ligand_of = ligands_of_residues(before, ligands);
   const std::vector<GroupSource> sources = group_sources(before, ligand_of, options);
   const std::string without_chains = source_of_ligands(before, sources);
@@ -777,6 +775,7 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   if (is_alone) done.force_field = "none";
   done.ph = options.ph;
   done.ligands = used_files(ligands, ligand_of);
+  done.ligands.insert(done.ligands.end(), groups.definitions.begin(), groups.definitions.end());
   done.from_cache = !is_alone && run.all_from_cache();
   compare_with_input(before, prepared.molecule, done);
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();

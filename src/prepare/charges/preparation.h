@@ -51,7 +51,7 @@ struct Preparation {
   std::string force_field;  ///< lower case; never auto; "none" for ligands alone
   double ph = 7;
   bool propka = true;                ///< whether PROPKA chose protonation states; false where nothing titrates
-  std::vector<std::string> ligands;  ///< MOL2 files of residues that were there
+  std::vector<std::string> ligands;  ///< MOL2 files and definitions of residues that were there
   bool from_cache = false;
   double seconds = 0;
   std::size_t n_atoms_before = 0, n_atoms = 0, n_hydrogens_added = 0;

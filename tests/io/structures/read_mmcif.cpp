@@ -107,11 +107,10 @@ TEST_CASE("read_mmcif: bad syntax, no atoms, missing columns, missing model") {
       mmcif_error("data_X\n_cell.length_a 1\n") ==
       "a.cif: mmCIF without the column _atom_site.id (no atoms at all); give a macromolecular mmCIF with coordinates");
   const ScratchFolder folder;
-  const std::string path =
-      folder.write("small.cif", "data_X\nloop_\n_atom_site_label\n_atom_site_fract_x\nC1 0.25\n");
+  const std::string path = folder.write("small.cif", "data_X\nloop_\n_atom_site_label\n_atom_site_fract_x\nC1 0.25\n");
   CHECK(message_of([&] { read_structure(path); }) ==
-        path + ": is the CIF of a crystal of small molecules, whose atoms lie in fractions of its cell; `obabel " + path +
-            " -O " + folder.file("small.mol2") + "` writes them with charges; give that");
+        path + ": is the CIF of a crystal of small molecules, whose atoms lie in fractions of its cell; `obabel " +
+            path + " -O " + folder.file("small.mol2") + "` writes them with charges; give that");
   CHECK(
       mmcif_error("data_ATP\nloop_\n_chem_comp_atom.comp_id\n_chem_comp_atom.atom_id\nATP PG\n") ==
       "a.cif: describes chemical components (_chem_comp_atom), no structure; give a structure that contains them, or a "
