@@ -13,7 +13,7 @@
 #include <gemmi/chemcomp.hpp>
 #include <gemmi/cif.hpp>
 
-#include "io/structures/formats/call_gemmi.h"
+#include "io/structures/call_gemmi.h"
 #endif
 
 #include "base/error.h"
@@ -79,15 +79,15 @@ void set_charges(const gemmi::ChemComp& from, const std::map<std::string, std::s
   }
 }
 
-/// The atom between two or more delocalized bonds has the double one.
-std::size_t middle_of(const gemmi::ChemComp& from, const gemmi::Restraints::Bond& bond,
-                      const std::map<std::string, std::size_t>& places) {
-  const auto n_delocalized = [&](const std::string& name) {
-    return std::count_if(from.rt.bonds.begin(), from.rt.bonds.end(), [&](const gemmi::Restraints::Bond& other) {
-      return other.type == gemmi::BondType::Deloc && (other.id1.atom == name || other.id2.atom == name);
-    });
-  };
-  return places.at(n_delocalized(bond.id1.atom) >= n_delocalized(bond.id2.atom) ? bond.id1.atom : bond.id2.atom);
+/// How many delocalized bonds each atom has: of a group, the one in the middle has most, and gets the double bond.
+std::map<std::string, int> delocalized_bonds(const gemmi::ChemComp& from) {
+  std::map<std::string, int> n;
+  for (const gemmi::Restraints::Bond& bond : from.rt.bonds) {
+    if (bond.type != gemmi::BondType::Deloc) continue;
+    ++n[bond.id1.atom];
+    ++n[bond.id2.atom];
+  }
+  return n;
 }
 
 /// Nothing where a bond has no order, as those to metals have not.
@@ -99,6 +99,7 @@ std::optional<Component> component_of(const gemmi::ChemComp& from, const std::st
     if (atom.el.is_metal() || !places.emplace(atom.id, component.atoms.size()).second) return std::nullopt;
     component.atoms.push_back({atom.id, 0});
   }
+  std::map<std::string, int> n_delocalized = delocalized_bonds(from);
   std::set<std::size_t> with_double;
   std::vector<gemmi::Restraints::Bond> bonds = from.rt.bonds;
   // OXT is missing within chains, and may not take the double bond along.
@@ -113,11 +114,14 @@ std::optional<Component> component_of(const gemmi::ChemComp& from, const std::st
     if (bond.type == gemmi::BondType::Double) order = 2;
     if (bond.type == gemmi::BondType::Triple) order = 3;
     if (bond.type == gemmi::BondType::Aromatic) order = kAromaticOrder;
-    if (bond.type == gemmi::BondType::Deloc) order = with_double.insert(middle_of(from, bond, places)).second ? 2 : 1;
-    if (order == 0) return std::nullopt;
+    if (bond.type == gemmi::BondType::Deloc) {
+      const bool is_first = n_delocalized[bond.id1.atom] >= n_delocalized[bond.id2.atom];
+      order = with_double.insert((is_first ? a : b)->second).second ? 2 : 1;
+    }
+    if (order == 0 || a == b) return std::nullopt;
     component.bonds.push_back({a->second, b->second, order});
   }
-  if (component.atoms.empty() || component.bonds.size() + 1 < component.atoms.size()) return std::nullopt;
+  if (component.bonds.empty() || component.bonds.size() + 1 < component.atoms.size()) return std::nullopt;
   set_charges(from, places, component);
   return component;
 }

@@ -16,7 +16,7 @@
 #include "base/not_a_number.h"
 #include "prepare/charges/caps.h"
 #include "prepare/charges/ion_table.h"
-#include "prepare/charges/ligand_bonds.h"
+#include "prepare/charges/ligand.h"
 #include "prepare/charges/modified_residues.h"
 #include "prepare/charges/open_babel.h"
 
@@ -144,7 +144,9 @@ std::size_t count_hydrogens(const Molecule& group) {
 /// Where the bonds of a residue are from, for people; empty where Open Babel perceived them.
 std::string take_source(Groups& groups, const std::optional<LigandBonds>& bonds) {
   if (!bonds) return {};
-  if (!bonds->path.empty()) groups.definitions.push_back(bonds->path);
+  std::vector<std::string>& used = groups.definitions;
+  if (!bonds->path.empty() && std::find(used.begin(), used.end(), bonds->path) == used.end())
+    used.push_back(bonds->path);
   return bonds->in_words();
 }
 

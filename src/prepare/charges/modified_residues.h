@@ -8,7 +8,7 @@
 #include "base/progress.h"
 #include "base/types.h"
 #include "prepare/charges/groups.h"
-#include "prepare/charges/ligand_bonds.h"
+#include "prepare/charges/ligand.h"
 
 namespace espdiff {
 

@@ -113,8 +113,8 @@ TEST_CASE("read_mmcif: bad syntax, no atoms, missing columns, missing model") {
             path + " -O " + folder.file("small.mol2") + "` writes them with charges; give that");
   CHECK(
       mmcif_error("data_ATP\nloop_\n_chem_comp_atom.comp_id\n_chem_comp_atom.atom_id\nATP PG\n") ==
-      "a.cif: describes chemical components (_chem_comp_atom), no structure; give a structure that contains them, or a "
-      "MOL2 file: `obabel LIGAND.sdf -O LIGAND.mol2` writes one");
+      "a.cif: describes chemical components (_chem_comp_atom), no structure; give a structure that contains them, with "
+      "this file for their bonds (ligand FILE), or a MOL2 file: `obabel LIGAND.sdf -O LIGAND.mol2` writes one");
   std::string without = kMmcifHead + "ATOM 1 N N . ALA A ? 1.0 2.0 3.0 1.0 5 7 X 1\n";
   without.replace(without.find("auth_seq_id"), 11, "auth_seq_ix");
   CHECK(mmcif_error(without).find("a.cif: mmCIF without the column _atom_site.auth_seq_id;") == 0);

@@ -15,7 +15,7 @@
 #include "base/formatted.h"
 #include "base/memory.h"
 #include "io/molecules/molecule_builder.h"
-#include "io/structures/formats/call_gemmi.h"
+#include "io/structures/call_gemmi.h"
 #include "io/text/text_cursor.h"
 
 namespace espdiff {

@@ -19,8 +19,8 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "io/molecules/molecule_builder.h"
+#include "io/structures/call_gemmi.h"
 #include "io/structures/formats/build_assembly.h"
-#include "io/structures/formats/call_gemmi.h"
 #include "io/structures/formats/pdb_text.h"
 #include "io/text/text_cursor.h"
 
@@ -234,7 +234,8 @@ void refuse_other_kinds(const std::string& path, const std::string& text) {
   if (text.find("_chem_comp_atom.") != std::string::npos)
     throw InputError(path +
                      ": describes chemical components (_chem_comp_atom), no structure; give a structure that "
-                     "contains them, or a MOL2 file: `obabel LIGAND.sdf -O LIGAND.mol2` writes one");
+                     "contains them, with this file for their bonds (" +
+                     option("ligand", "FILE") + "), or a MOL2 file: `obabel LIGAND.sdf -O LIGAND.mol2` writes one");
 }
 
 void check_atom_site(const std::string& path, const std::string& text, gemmi::cif::Block& block) {
