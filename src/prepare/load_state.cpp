@@ -368,7 +368,8 @@ void check_ligands(const InputOptions& options, const std::vector<const LoadedSt
     if (states.empty() || std::any_of(states.begin(), states.end(), has)) continue;
     const bool any =
         std::any_of(states.begin(), states.end(), [](const auto* s) { return s->preparation.has_value(); });
-    const Molecule& whole = states.front()->whole;
+    const LoadedState& first = *states.front();
+    const Molecule& whole = first.whole.size() > 0 ? first.whole : first.molecule;
     throw InputError(path + ": " +
                      (!any ? "no structure is prepared that this ligand could be in"
                       : is_component_path(path)

@@ -47,8 +47,8 @@ void run_preparation(PreparationObject& p, const Progress& progress) {
     state.preparation = charge_molecule(state.molecule, options, {}, state.charge_files, progress);
   } else {
     state = load_state(StructureFile(p.molecule.path), {p.molecule.structure}, options, progress);
-    check_left_out(options, {&state});
   }
+  check_left_out(options, {&state});
   AtomicFile file(p.path);
   write_pqr(file.stream(), state.molecule);
   file.commit();

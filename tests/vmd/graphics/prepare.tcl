@@ -48,6 +48,9 @@ test "refused: no charges for the ligand, no map, no such file" {
         "get no charges from PDB2PQR" "-leave-out (BNZ,HED)"
     check "no file" {![file exists $scratch/no.pqr]}
     check_refused {espdiff prepare [list mol $target map pb] -pqr $scratch/no.pqr} {ESPDIFF INPUT} "is not of a preparation"
+    set definition [file join $env(ESPDIFF_TESTS) .. fuzz seeds component dictionary.cif]
+    check_refused {espdiff prepare [list mol $target sel "not water"] -ligand $definition -pqr $scratch/no.pqr} \
+        {ESPDIFF INPUT} "no residue that is prepared" "of one of its components"
     check_refused {espdiff compare [list mol $source map pb] [list mol $target map pb]} {ESPDIFF INPUT} \
         "have no charges" "`espdiff prepare` makes some"
     check_refused {espdiff compare [list mol $source map none] [list mol $target map none] -select //A} {ESPDIFF INPUT} \
