@@ -2,6 +2,9 @@
 
 repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 
+# Bonds of ligands are the same whether CCP4's library is installed or not.
+export CLIBD_MON=
+
 # Prints a line that stands out from a compiler's or apt's output.
 say() { printf '== %s\n' "$*"; }
 
