@@ -42,6 +42,7 @@ void run_preparation(PreparationObject& p, const Progress& progress) {
   const InputOptions& options = p.computation.options.input;
   LoadedState& state = p.state;
   if (p.molecule.path.empty()) {
+    refuse_options_of_files(options, StateRole::kOnly, "this is a molecule of VMD; choose its atoms by `sel`");
     state.molecule = without_repeated_atoms(p.molecule.molecule);
     state.n_left_out = p.molecule.molecule.size() - state.molecule.size();
     state.preparation = charge_molecule(state.molecule, options, {}, state.charge_files, progress);

@@ -172,7 +172,7 @@ bool agrees_with_formula(Groups& groups, const Molecule& molecule, const Molecul
   return wanted && *wanted == found;
 }
 
-/// "Gasteiger's charges, pH 7; bonds of FMN.cif, as the file's formula has them"
+/// "Gasteiger's charges, pH 7; bonds of FMN.cif, which agree with the file's formula"
 std::string source_in_words(double ph, const std::string& bonds_from, bool agrees) {
   return "Gasteiger's charges, pH " + formatted("%g", ph) +
          (!bonds_from.empty() ? "; bonds of " + bonds_from + (agrees ? ", which agree with the file's formula" : "")

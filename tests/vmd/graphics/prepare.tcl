@@ -51,6 +51,8 @@ test "refused: no charges for the ligand, no map, no such file" {
     set definition [file join $env(ESPDIFF_TESTS) .. fuzz seeds component dictionary.cif]
     check_refused {espdiff prepare [list mol $target sel "not water"] -ligand $definition -pqr $scratch/no.pqr} \
         {ESPDIFF INPUT} "no residue that is prepared" "of one of its components"
+    check_refused {espdiff prepare [list mol $target sel "not water"] -leave-out (BNZ) -pqr $scratch/no.pqr} {ESPDIFF INPUT} \
+        "choose its atoms by `sel`"
     check_refused {espdiff compare [list mol $source map pb] [list mol $target map pb]} {ESPDIFF INPUT} \
         "have no charges" "`espdiff prepare` makes some"
     check_refused {espdiff compare [list mol $source map none] [list mol $target map none] -select //A} {ESPDIFF INPUT} \
