@@ -79,15 +79,28 @@ void set_charges(const gemmi::ChemComp& from, const std::map<std::string, std::s
   }
 }
 
-/// How many delocalized bonds each atom has: of a group, the one in the middle has most, and gets the double bond.
-std::map<std::string, int> delocalized_bonds(const gemmi::ChemComp& from) {
-  std::map<std::string, int> n;
-  for (const gemmi::Restraints::Bond& bond : from.rt.bonds) {
-    if (bond.type != gemmi::BondType::Deloc) continue;
-    ++n[bond.id1.atom];
-    ++n[bond.id2.atom];
+/// A bond of a delocalized group, between the atom in its middle and another.
+struct GroupBond {
+  std::size_t bond;  ///< of Component::bonds
+  std::size_t middle, outer;
+};
+
+/// The middle of each group, which has most of its bonds, gets one double bond: to the outer atom with fewest heavy
+/// neighbours, as an ester has, and not to OXT, which is missing within chains.
+void set_double_bonds(std::vector<GroupBond> groups, Component& component) {
+  std::vector<int> n_delocalized(component.atoms.size(), 0), n_neighbours(component.atoms.size(), 0);
+  for (const GroupBond& one : groups) ++n_delocalized[one.middle], ++n_delocalized[one.outer];
+  for (const ComponentBond& bond : component.bonds) ++n_neighbours[bond.a], ++n_neighbours[bond.b];
+  for (GroupBond& one : groups) {
+    if (n_delocalized[one.middle] < n_delocalized[one.outer]) std::swap(one.middle, one.outer);
   }
-  return n;
+  const auto rank = [&](const GroupBond& one) {
+    return std::pair(component.atoms[one.outer].name == "OXT", n_neighbours[one.outer]);
+  };
+  std::stable_sort(groups.begin(), groups.end(),
+                   [&](const GroupBond& a, const GroupBond& b) { return rank(a) < rank(b); });
+  std::set<std::size_t> with_double;
+  for (const GroupBond& one : groups) component.bonds[one.bond].order = with_double.insert(one.middle).second ? 2 : 1;
 }
 
 /// Nothing where a bond has no order, as those to metals have not.
@@ -99,14 +112,8 @@ std::optional<Component> component_of(const gemmi::ChemComp& from, const std::st
     if (atom.el.is_metal() || !places.emplace(atom.id, component.atoms.size()).second) return std::nullopt;
     component.atoms.push_back({atom.id, 0});
   }
-  std::map<std::string, int> n_delocalized = delocalized_bonds(from);
-  std::set<std::size_t> with_double;
-  std::vector<gemmi::Restraints::Bond> bonds = from.rt.bonds;
-  // OXT is missing within chains, and may not take the double bond along.
-  std::stable_partition(bonds.begin(), bonds.end(), [](const gemmi::Restraints::Bond& bond) {
-    return bond.id1.atom != "OXT" && bond.id2.atom != "OXT";
-  });
-  for (const gemmi::Restraints::Bond& bond : bonds) {
+  std::vector<GroupBond> groups;
+  for (const gemmi::Restraints::Bond& bond : from.rt.bonds) {
     const auto a = places.find(bond.id1.atom), b = places.find(bond.id2.atom);
     if (a == places.end() || b == places.end()) continue;
     int order = 0;
@@ -115,13 +122,14 @@ std::optional<Component> component_of(const gemmi::ChemComp& from, const std::st
     if (bond.type == gemmi::BondType::Triple) order = 3;
     if (bond.type == gemmi::BondType::Aromatic) order = kAromaticOrder;
     if (bond.type == gemmi::BondType::Deloc) {
-      const bool is_first = n_delocalized[bond.id1.atom] >= n_delocalized[bond.id2.atom];
-      order = with_double.insert((is_first ? a : b)->second).second ? 2 : 1;
+      groups.push_back({component.bonds.size(), a->second, b->second});
+      order = 1;
     }
     if (order == 0 || a == b) return std::nullopt;
     component.bonds.push_back({a->second, b->second, order});
   }
   if (component.bonds.empty() || component.bonds.size() + 1 < component.atoms.size()) return std::nullopt;
+  set_double_bonds(std::move(groups), component);
   set_charges(from, places, component);
   return component;
 }

@@ -70,8 +70,16 @@ TEST_CASE("read_components: a delocalized group gets one double bond, not to OXT
   REQUIRE(all.size() == 1);
   CHECK(all[0].name == "ACI");
   CHECK(bonds_in_words(all[0]) ==
-        std::vector<std::string>{"C-CA 1", "O-C 2", "P-CA 1", "P-O1 2", "O2-P 1", "P-O3 1", "OXT-C 1"});
+        std::vector<std::string>{"C-CA 1", "OXT-C 1", "O-C 2", "P-CA 1", "P-O1 2", "O2-P 1", "P-O3 1"});
   for (const ComponentAtom& atom : all[0].atoms) CHECK(atom.charge == 0);
+}
+
+TEST_CASE("read_components: of an ester that is called delocalized, the oxygen at the end has the double bond") {
+  const std::vector<Component> all =
+      components("data_EST\n" + atoms_of("EST C1 C 0\nEST O1 O 0\nEST O2 O 0\nEST C2 C 0\n") +
+                 bonds_of("EST C1 O1 deloc\nEST C1 O2 deloc\nEST O1 C2 single\n", "type"));
+  REQUIRE(all.size() == 1);
+  CHECK(bonds_in_words(all[0]) == std::vector<std::string>{"C1-O1 1", "C1-O2 2", "O1-C2 1"});
 }
 
 TEST_CASE("read_components: what has no orders, no bonds, or is no CIF") {
